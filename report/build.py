@@ -24,6 +24,7 @@ from pathlib import Path
 
 import book_pdf
 import check_site
+import subjects
 
 from bench.cli.progress import progress
 from bench.experiments.tables import data_package, trust
@@ -38,6 +39,7 @@ STAMP = BUILD / "finished.json"
 RESULTS_VARIABLE = "ORIENTATION_BENCH_RESULTS"
 # What cells read and run besides a run's folder.
 BEHIND_CELLS = ("results/timings", "results/libraries", "bench", "report/figures", "tasks", "requirements")
+FILES_BEHIND_CELLS = ("pyproject.toml", "CITATION.cff", "report/subjects.py", "report/subjects.toml")
 WRITTEN_LAST = "provenance.json"  # a run without it is unfinished
 NO_GIT_EPOCH = 1_793_491_200  # 2026-11-01, the date printed by a copy without git history
 # It has no __main__, and its script in bin names the folder it was installed in.
@@ -105,7 +107,7 @@ def keys(results: Path, root: Path = ROOT) -> dict[str, str]:
         *files_below(results),
         *(mark for mark in marks if mark.is_file()),
         *(path for name in BEHIND_CELLS for path in files_below(root / name)),
-        *(path for path in (root / "pyproject.toml", root / "CITATION.cff") if path.is_file()),
+        *(root / name for name in FILES_BEHIND_CELLS if (root / name).is_file()),
     ]
     of_site = [*behind_cells, *files_below(root / "report")]
     return {"cells": digest(behind_cells, root), "site": digest(of_site, root)}
@@ -202,6 +204,8 @@ def main() -> int:
     try:
         results = results_folder()
         print(f"report: from {os.path.relpath(results, ROOT)}", flush=True)
+        if faults := subjects.find_faults(subjects.read_pages(subjects.MAP), subjects.list_pages()):
+            raise CannotBuild("\n".join(faults))
         is_built = STAMP.is_file() and (SITE / "index.html").is_file()
         wanted, finished = keys(results), json.loads(STAMP.read_text(encoding="utf-8")) if is_built else {}
         if wanted != finished:

@@ -188,14 +188,14 @@ def _answer_other_robot(robot: str) -> Reply:
     from bench.findings.selection.robots import ROBOTS, decide_for
 
     kind = ROBOTS[robot]
-    decision = decide_for(kind)
-    if decision is None or decision.law is None:
+    verdict = decide_for(kind)
+    if verdict is None or verdict.law is None:
         text = f"No law of results/reference is advised where a robot takes {kind.takes}."
         return Reply([Paragraph("Which law", (text,))], None)
-    tied = f", tied with {listed(decision.tied)}" if decision.tied else ""
+    tied = f", tied with {listed(verdict.tied)}" if verdict.tied else ""
     text = (
-        f"Use {decision.law}{tied}. Your robot takes {kind.takes}; compared were "
-        f"{counted(len(decision.asked), 'law')} of results/reference ({kind.rows}). Gains, bound and timing do not "
-        "enter here: laws of first order have one gain, and its time scale is 1/K."
+        f"Use {verdict.law}{tied}. Your robot takes {kind.takes}; {counted(verdict.asked, 'law')} of "
+        f"results/reference ({kind.rows}) meet the requirements, and were compared by the rule of the map. Gains, "
+        "bound and timing do not enter here: laws of first order have one gain, and its time scale is 1/K."
     )
-    return Reply([Paragraph("Which law", (text,))], decision)
+    return Reply([Paragraph("Which law", (text,))], verdict)

@@ -8,6 +8,7 @@ from bench.cli import options
 from bench.cli.paragraphs import Paragraph, print_paragraphs
 from bench.cli.screen import console, counted, examples, frame_table
 from bench.findings.judgement import Judgement
+from bench.findings.subjects import describe_readings, find_reading
 
 
 @click.command("judge", epilog=examples("judge"))
@@ -43,9 +44,10 @@ def print_judgement(one: Judgement) -> None:
     faults = f"{counted(len(one.faults), 'fault')}: {', '.join(one.faults)}." if one.faults else "no fault found."
     screen.print(f"{one.name}: {faults}\n")
     for head, is_fault in (("Faults", True), ("Otherwise" if one.faults else "Findings", False)):
-        texts = tuple(f"{each.text} [{each.page}]" for each in one.said if bool(each.fault) == is_fault)
+        some = [each for each in one.said if bool(each.fault) == is_fault]
+        texts = tuple(f"{each.text} [{find_reading(each.subject)}]" for each in some)
         print_paragraphs(Paragraph(head, texts))
     if one.beside:
         title = "\nThe laws of results/reference nearest to it in pull at 90 degrees and median settling time"
         screen.print(frame_table(pd.DataFrame(one.beside), f"{title} (a/b: a of b settled)"))
-    screen.print("\n[..] are pages of the book: report/pages, or make report.")
+    screen.print(f"\n[..] are {describe_readings()}.")

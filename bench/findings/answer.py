@@ -20,11 +20,11 @@ from bench.findings.kept import keep
 from bench.findings.selection import regions
 from bench.findings.selection.bounded import explain_bounded, find_bounded
 from bench.findings.selection.nearest import decide_nearest, find_outside
-from bench.findings.selection.needs import Decision
 from bench.findings.selection.regions import (
     OVERSHOOT,
     STUDY,
     Rule,
+    Verdict,
     facts_of,
     find_default,
     find_regions,
@@ -274,14 +274,14 @@ def _list_robots(run: Path) -> Iterator[Need]:
     for name, robot in ROBOTS.items():
         controller = _CONTROLLERS[name]
         try:
-            decision = decide_for(robot, run)
+            verdict = decide_for(robot, run)
         except BadResults:
-            decision = None
-        if decision is None or decision.law is None:
+            verdict = None
+        if verdict is None or verdict.law is None:
             yield _untested(controller, name)
             continue
-        why, price = _describe_decision(decision), _price_on_robot(decision.law, run)
-        yield Need(controller, decision.law, attribute(decision.law), why, price, name)
+        why, price = _describe_verdict(verdict), _price_on_robot(verdict.law, run)
+        yield Need(controller, verdict.law, attribute(verdict.law), why, price, name)
 
 
 _CONTROLLERS = {
@@ -291,15 +291,18 @@ _CONTROLLERS = {
 }
 
 
-def _describe_decision(decision: Decision) -> str:
-    if len(decision.asked) == 1:
+def _describe_verdict(verdict: Verdict) -> str:
+    if verdict.asked == 1:
         return "no other law that was tried meets the requirements"
-    if decision.tied:
-        is_pair = len(decision.tied) == 1
-        others = f"{' and' if is_pair else ','} {together(decision.tied)}"
+    if verdict.tied:
+        is_pair = len(verdict.tied) == 1
+        others = f"{' and' if is_pair else ','} {together(verdict.tied)}"
         simplest = "simpler" if is_pair else "the simplest of these"
-        return f"of {len(decision.asked)} laws tried, this law{others} are best; this law is {simplest}"
-    return f"none of the {len(decision.asked)} laws that were tried is better"
+        return (
+            f"{verdict.asked} laws meet the requirements; no published or adapted law of these is better than this "
+            f"law{others}; this law is {simplest}"
+        )
+    return f"{verdict.asked} laws meet the requirements; no other published or adapted law of these is better"
 
 
 def _price_on_robot(law: str, run: Path) -> str:

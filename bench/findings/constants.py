@@ -14,10 +14,12 @@ import pandas as pd
 
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
-from bench.findings.selection.criteria import NOTABLE
 
 STUDY = RESULTS / "constants"
 """What `python -P -m bench.studies.constants` keeps."""
+
+NOTABLE = 0.01
+"""Differences below a hundredth are no reason to choose a law."""
 
 AS_SHIPPED = "as shipped"
 

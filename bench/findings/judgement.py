@@ -2,12 +2,14 @@
 
 from typing import Any, NamedTuple
 
+from bench.findings.subjects import SentenceSubject
+
 
 class Said(NamedTuple):
-    """A sentence, the page that explains it, and the word of the fault that it names; empty if it names none."""
+    """A sentence, its subject, and the word of the fault that it names; empty if it names none."""
 
     text: str
-    page: str
+    subject: SentenceSubject
     fault: str = ""
 
 

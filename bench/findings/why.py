@@ -1,4 +1,4 @@
-"""Why a law does what it does: a sentence for each thing found of it, with the state that shows it and its page.
+"""Why a law does what it does: a sentence for each thing found of it, with its subject and the state that shows it.
 
 A fault is a sentence that names one. Equilibria away from the goal, and places where the command is no number, are no
 faults of a law whose `property` is "almost global": the word says that they exist.
@@ -20,18 +20,20 @@ from bench.experiments.tables.statistics import quantile
 from bench.findings.amounts import count_of, join_words
 from bench.findings.judgement import Said
 from bench.findings.perturbed import WITHSTANDS, by_level, thresholds
-from bench.findings.selection.needs import CHATTER
+from bench.findings.subjects import SentenceSubject
 from bench.findings.theory.thresholds import near_goal
 from bench.law.contenders.registry import contenders
 from bench.law.kinds import CONTROL
 from tasks.rules import RULES
 
-FAILURES, SIDE = "02-three-regulators", "appendix-side-by-side"
-ENDS, ROBUSTNESS = "appendix-method", "08-delay-noise-limits"
+CHATTER = 1.0
+"""Largest change of the command from tick to tick at rest [rad/s^2]: a hundredth of Kp times a radian. A linear loop
+that has just come to rest from 180 degrees changes by (Kp w + Kv (Kp b + Kv w)) dt = 0.25 at most, b = 0.063 rad being
+the band and w = b/0.25 s."""
 
 SENTENCES: dict[str, dict[str, dict[str, str]]]
 SENTENCES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-"""Finding -> what -> text, page and, if it is one, fault."""
+"""Finding -> what -> text, subject and, if it is one, fault."""
 
 SETS = {
     "every": "180° rotations about all {of} axes that we tried",
@@ -67,7 +69,7 @@ def sentences(
     cause: the fault that explains all others (`find_cause`); then only it and what is known of the goal are said.
     """
     if rows.empty:
-        return [Said("Its command was not looked at: it crashed or hung.", FAILURES, "broken")]
+        return [Said("Its command was not looked at: it crashed or hung.", SentenceSubject.LOST_STARTS, "broken")]
     whats = find_words(rows, declared)
     if whats["stiffness"] == "as-set" and len(set(stiffness)) > 1:
         whats["stiffness"] = "by-axis"
@@ -137,31 +139,34 @@ def _value_of(rows: pd.DataFrame, finding: str) -> float:
 
 
 def _say(known: dict[str, str], words: dict[str, str], is_fault: bool = True) -> Said:
-    return Said(known["text"].format(**words), known["page"], known.get("fault", "") if is_fault else "")
+    subject = SentenceSubject(known["subject"])
+    return Said(known["text"].format(**words), subject, known.get("fault", "") if is_fault else "")
 
 
 def ends(rows: pd.DataFrame, declared: str) -> list[Said]:
     """How its episodes by one engine end: settled a of b, the first start of each other outcome, and how it rests."""
     is_settled, sets = rows["outcome"] == "settled", rows["start_set"].astype(str)
     each = (f"{name} {own.sum():,} of {len(own):,}" for name, own in is_settled.groupby(sets, sort=False))
-    said = [Said(f"Settled: {', '.join(each)}.", ENDS)]
+    said = [Said(f"Settled: {', '.join(each)}.", SentenceSubject.JUDGE)]
     is_known = (rows["angle0_rad"] > math.pi - NEAR_RAD) & declared.startswith("almost global")
     lost = rows[~is_settled]
     for (known, outcome), own in lost.groupby([is_known, lost["outcome"].astype(str)], sort=False):
         text = f"Not settled, {outcome}: {_counts(own)}."
-        said.append(Said(text, FAILURES, "" if known else FAULTS.get(outcome, "lost starts")))
+        fault = "" if known else FAULTS.get(outcome, "lost starts")
+        said.append(Said(text, SentenceSubject.LOST_STARTS, fault))
     settled = rows[is_settled]
     chatters, quiet = settled[settled["rest_change"] > CHATTER], settled[settled["rest_change"] <= CHATTER]
     change = f"at rest its command changes by {settled['rest_change'].max():.3g} rad/s² from tick to tick"
     if len(chatters):
-        said.append(Said(f"Chatter: {change}, over {CHATTER:g}: {_counts(chatters)}.", ENDS, "chatter"))
+        text = f"Chatter: {change}, over {CHATTER:g}: {_counts(chatters)}."
+        said.append(Said(text, SentenceSubject.JUDGE, "chatter"))
     elif len(quiet):
-        said.append(Said(f"Quiet: {change}.", ENDS))
+        said.append(Said(f"Quiet: {change}.", SentenceSubject.JUDGE))
     uniform = quiet[quiet["start_set"] == "uniform"]
     long_way = uniform[uniform["path_ratio"] * uniform["angle0_rad"] > math.pi]
     if 2 * len(long_way) > len(uniform):
         text = f"Unwinding: it turns by more than 180 deg from {_counts(long_way)}; {len(uniform)} settle."
-        said.append(Said(text, SIDE, "unwinding"))
+        said.append(Said(text, SentenceSubject.UNWINDING, "unwinding"))
     return said
 
 
@@ -182,9 +187,11 @@ def is_settling(rows: pd.DataFrame) -> bool:
 def not_run(cause: str, episodes: pd.DataFrame, is_lost: bool) -> list[Said]:
     """Say what was not run, and why: where a cause is known no episode, where no start settles no perturbation."""
     if cause:
-        return [Said("No episode was run: the fault explains what episodes would show. Correct it first.", ENDS)]
+        text = "No episode was run: the fault explains what episodes would show. Correct it first."
+        return [Said(text, SentenceSubject.JUDGE)]
     if len(episodes) and not is_lost and not is_settling(episodes):
-        return [Said("No perturbation was tried: without one the law settles from no start.", ROBUSTNESS)]
+        text = "No perturbation was tried: without one the law settles from no start."
+        return [Said(text, SentenceSubject.ROBUSTNESS)]
     return []
 
 
@@ -204,7 +211,8 @@ def perturbed(rows: pd.DataFrame) -> list[Said]:
             parts.append(f"{way.name} {held} {unit} ({one.share:.0%} at {one.broken:g}{theory})")
     text = f"Thresholds: {'; '.join(parts)}. " if parts else ""
     text += f"Withstood to the last level tried: {', '.join(whole)}." if whole else ""
-    return [Said(f"{text.strip()} A threshold is where {WITHSTANDS.partition(';')[0]}.", ROBUSTNESS)]
+    text = f"{text.strip()} A threshold is where {WITHSTANDS.partition(';')[0]}."
+    return [Said(text, SentenceSubject.ROBUSTNESS)]
 
 
 def beside(field: pd.DataFrame, episodes: pd.DataFrame, run_field: pd.DataFrame, run: pd.DataFrame) -> pd.DataFrame:

@@ -25,8 +25,8 @@ from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.verdict import Evidence, Verdict, Word
 from bench.findings.selection.nearest import answer as answer_nearest
 from bench.findings.selection.nearest import decide_nearest
-from bench.findings.selection.needs import measure
 from bench.findings.selection.regions import find_default
+from bench.findings.selection.run_rows import compare_free_body
 from bench.law.inputs import Gains
 from bench.studies.verdicts import STORED
 from tasks.situation import NOMINAL
@@ -286,12 +286,14 @@ def test_summary_imports_no_statistics_of_scipy():
 
 def test_laws_of_a_run_without_arms_are_compared(tables):
     episodes, compliance = results.chosen(tables["episodes"], {"arm": ""}), tables["compliance"].iloc[:0]
-    found = measure(Results(REFERENCE, {**tables, "episodes": episodes, "compliance": compliance}))
-    assert "is better by" in text(*answer.paragraphs(found))
+    run = Results(REFERENCE, {**tables, "episodes": episodes, "compliance": compliance})
+    said = text(*answer.paragraphs(compare_free_body(run)))
+    assert "In this run, 99 % of the uniform starts settle within 0.584 s with late-braking" in said
+    assert "by our rule, the two laws tie. late-braking meets our requirements here." in said
 
 
 def test_details_have_the_advice_and_the_failures_in_sentences(capsys, monkeypatch):
-    monkeypatch.setattr(details, "measure", lambda run: None)
+    monkeypatch.setattr(details, "compare_free_body", lambda run: None)
     said = bench(capsys, "show", REFERENCE, "--details")
     for head in ("Which law", "Elsewhere", "Ours", "Other rules", "What failed"):
         assert re.search(f"^{head} ", said.out, re.MULTILINE)

@@ -14,9 +14,9 @@ from bench.findings import claims
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.on_arms import best
-from bench.findings.selection.needs import is_unheld, measured, settles_everywhere
-from bench.findings.selection.regions import decide_all, find_default, find_regions
-from bench.findings.selection.robots import ARM, VELOCITY, decide_for
+from bench.findings.selection.regions import decide, decide_all, find_default, find_regions, list_facts
+from bench.findings.selection.robots import ARM, POSITION, VELOCITY, decide_for
+from bench.findings.selection.run_rows import compare_run, is_unheld, settles_everywhere
 from bench.findings.selection.unbeaten import find_bounds
 from bench.findings.selection.words import describe_bounds
 from report.figures import index
@@ -28,14 +28,17 @@ from report.figures.kit import families
 FOLDER = RUN.folder
 
 
-@pytest.fixture(scope="module")
-def found():
-    return measured(FOLDER)
-
-
-@pytest.mark.parametrize(("robot", "again"), [(ARM, advised.accelerations), (VELOCITY, advised.velocities)])
+@pytest.mark.parametrize(
+    ("robot", "again"),
+    [(ARM, advised.arms), (VELOCITY, advised.velocities), (POSITION, advised.positions)],
+)
 def test_robot_is_advised_as_by_the_rule_written_again(robot, again):
-    assert again().decide(robot.need) == decide_for(robot, FOLDER)
+    assert again().decide() == advised.unordered(decide_for(robot, FOLDER))
+
+
+def test_run_of_the_free_body_gives_the_law_of_the_map():
+    compared = compare_run(FOLDER)
+    assert decide(compared.rows, pairs=compared.pairs).law == find_default()
 
 
 def test_map_is_decided_as_by_the_rule_written_again():
@@ -49,11 +52,12 @@ def test_laws_that_are_advised_and_run_on_arms_are_in_the_suite():
     assert decide_for(ARM, FOLDER).law in on_arms
 
 
-def test_no_law_without_memory_settles_everywhere_and_is_not_held(found):
+def test_no_law_without_memory_settles_everywhere_and_is_not_held():
     # Bhat and Bernstein 2000; Mayhew, Sanfelice and Teel 2011
-    forgetful = [law for law in found.laws if not found.number("memory", law) and law in found.values["held"]]
+    rows = compare_run(FOLDER).rows.dropna(subset="held")
+    forgetful = rows[[fact.memory == 0 for fact in list_facts(rows)]]
     assert len(forgetful) > 5
-    assert not [law for law in forgetful if settles_everywhere(found, law) and is_unheld(found, law)]
+    assert not (settles_everywhere(forgetful) & is_unheld(forgetful)).any()
 
 
 def test_time_of_laws_alone_is_what_tells_whole_controllers_apart():

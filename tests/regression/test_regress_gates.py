@@ -9,6 +9,7 @@ from support.user_law import DAMPER, law_text
 from bench.base.errors import BadLaw, BadResults, Incompatible, UnknownWord
 from bench.cli import main
 from bench.findings.judgement import Judgement, Said
+from bench.findings.subjects import SentenceSubject
 from bench.regression.revisions import gates, summary
 from bench.regression.revisions.commits import (
     check_out,
@@ -58,7 +59,8 @@ def means(finished):
             if isinstance(faults, Exception):
                 raise faults
             is_head = laws[0].origin.endswith("user/law.py")
-            said = tuple(Said("It shakes.", "appendix-method", fault) for fault in (faults if is_head else base_faults))
+            named = faults if is_head else base_faults
+            said = tuple(Said("It shakes.", SentenceSubject.JUDGE, fault) for fault in named)
             return [Judgement("braking", said, (), False)]
 
         return gates.Means(lambda side, report: contextlib.nullcontext(finished), compare_times, judge)

@@ -6,9 +6,9 @@ import pytest
 
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.perturbed import Threshold, Way
-from bench.findings.selection import needs
-from bench.findings.selection.needs import measured
-from bench.findings.selection.words import compare, standing
+from bench.findings.selection.regions import Verdict
+from bench.findings.selection.run_rows import compare_run
+from bench.findings.selection.words import describe_lacks, standing
 from report.figures.arms import arms
 from report.figures.contact import as_arms_run, in_contact
 from report.figures.cost import cost
@@ -19,7 +19,7 @@ from report.figures.libraries import libraries
 from report.figures.robustness import half_turn_noise, robustness
 
 FOLDER = RESULTS / "reference"
-OURS, ADVISED = "late-braking", "hybrid"
+OURS = "late-braking"
 
 
 class Planted(Run):
@@ -57,7 +57,7 @@ def plant_thresholds(*held):
 
 def plant_decision(tied, asked):
     """State whether the advised law is alone."""
-    return standing(needs.Decision("a", tied, ("a", *tied), asked), str)
+    return standing(Verdict("a", tied, asked=asked), str)
 
 
 def plant_loops(**columns):
@@ -69,16 +69,13 @@ def plant_loops(**columns):
     return f"{said['loops_dead']} dead, {said['loops_away']} away"
 
 
-def plant_numbers(laws=None, **numbers):
-    """Return what was measured, with the numbers of some laws, or of all, changed."""
-    found = measured(FOLDER)
-    new = {name: dict.fromkeys(laws or found.laws, np.array([value])) for name, value in numbers.items()}
-    return found._replace(values=found.values | {name: found.values[name] | own for name, own in new.items()})
-
-
-def plant_comparison(**numbers):
-    """State how our law compares with another."""
-    return compare(plant_numbers([OURS], **numbers), OURS, ADVISED)
+def plant_lacks(**numbers):
+    """State what our law lacks of the requirements, with some of its numbers changed."""
+    compared = compare_run(FOLDER)
+    rows = compared.rows.copy()
+    for name, value in numbers.items():
+        rows.loc[rows["contender"] == OURS, name] = value
+    return describe_lacks(compared._replace(rows=rows), OURS)
 
 
 def plant_order(*times):
@@ -98,9 +95,9 @@ SENTENCES = {
     "alone": (
         plant_decision,
         [
-            (((), ("a",)), "No other published or adapted law"),
-            (((), ("a", "b")), "at least as good as the others on every criterion and better on one"),
-            ((("b",), ("a", "b")), "The law ties with b and is the simplest"),
+            (((), 1), "No other law of this run"),
+            (((), 2), "more than 5 % slower than one of these laws"),
+            ((("b",), 2), "The law ties with b and is the simplest"),
         ],
     ),
     "order": (
@@ -112,7 +109,14 @@ SENTENCES = {
     "stable": (plant_fact(as_arms_run.facts, "felt_most"), [({}, "7.1"), ({"ratio": 3.0}, "3")]),
     "noise": (plant_fact(half_turn_noise.facts, "blind_middle"), [({}, "25"), ({"outcome": "settled"}, "100")]),
     "least": (plant_fact(failure_map.facts, "least"), [({}, "135"), ({"alpha0": 2.0}, "114")]),
-    "ours": (plant_comparison, [({}, "better by effort"), ({"effort": 1e9}, "worse by effort")]),
+    "ours": (
+        plant_lacks,
+        [
+            ({}, "meets our requirements here"),
+            ({"lost": 2.0}, "does not settle from 2 uniform starts"),
+            ({"overshoot": 30.0}, "overshoots by 30°, over 5° more"),
+        ],
+    ),
 }
 
 

@@ -1,6 +1,6 @@
-"""The laws that the rules of `bench.findings.selection` advise, by the rules written a second time, on arrays.
+"""The laws that the rule of the map advises for robots, by the rule written a second time, on arrays.
 
-Only what robots ask (robots.toml), whose laws are ours and what a law remembers is read from the program.
+Only whose laws are ours and what a law remembers is read from the program.
 """
 
 import functools
@@ -9,92 +9,78 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.selection import needs
-from bench.findings.start_sets import DIRECTED
+from bench.findings.selection.regions import Verdict
 from bench.law.contenders.registry import find_contender
 from support.tables import table
 
-GENERAL = ("time", "worst", "effort", "peak", "variation", "tick")
-LEVELS = {"time": 0.99, "worst": 1.0, "peak": 1.0}
-MEANS, MORE_IS_BETTER = ("unsettled", "arms", "within"), ("arms", "within")
-DRAWS = 1000
+DRAWS = 2000
+TIE, OVERSHOOT_DEG, DETOUR, AWAY_RAD = 0.05, 5.0, 1.5, 0.05
 
 
-def take(criterion, values):
-    """Return the criterion's number of arrays (..., starts, laws): a mean, or a quantile that is one of the values."""
-    if criterion in MEANS:
-        return values.mean(axis=-2)
-    place = int(np.ceil(LEVELS.get(criterion, 0.5) * values.shape[-2] - 1e-9)) - 1
+def crowd(values):
+    """Return the 99 % quantile over the starts of arrays (..., starts, laws), which is one of the values."""
+    place = int(np.ceil(0.99 * values.shape[-2] - 1e-9)) - 1
     return np.take(np.partition(values, place, axis=-2), place, axis=-2)
 
 
+def mean(values):
+    """Return the mean over the starts of arrays (..., starts, laws)."""
+    return values.mean(axis=-2)
+
+
 class Asked:
-    """Criterion -> a row a start, a column a law."""
+    """Laws on the starts of a robot.
 
-    def __init__(self, values):
-        self.values, self.compared = values, {}
-        self.laws = sorted(values["memory"].columns, key=lambda law: (*self.simplicity(law), law))
+    values: a row a start, a column a law. counts: a row a law, a column for each thing that no start may do.
+    overshoot: of each law [deg], where it was measured. number: what is compared of the values.
+    """
 
-    def simplicity(self, law):
-        """Return the numbers kept and the operations of a tick."""
-        return self.values["memory"][law].iloc[0], sum(operations(law))
+    def __init__(self, values, counts, number, overshoot=None):
+        self.values, self.counts, self.number, self.overshoot = values, counts, number, overshoot
 
-    def number(self, criterion):
-        """Return law -> number."""
-        frame = self.values[criterion]
-        return pd.Series(take(criterion, frame.to_numpy(float)), frame.columns)
+    def qualify(self):
+        """Return the laws that meet the requirements, in alphabetic order."""
+        number = pd.Series(self.number(self.values.to_numpy(float)), self.values.columns)
+        counts = self.counts.reindex(number.index)
+        has = (counts == 0).all(axis=1) & np.isfinite(number)
+        if self.overshoot is not None:
+            published = [law for law in number.index if has[law] and not is_ours(law)]
+            has &= ~(self.overshoot[number.index] > self.overshoot[published].min() + OVERSHOOT_DEG)
+        return sorted(has.index[has])
 
-    def drawn(self, criterion):
-        """Return the numbers (DRAWS, laws) of resampled starts, the same for every law."""
-        values = self.values[criterion].to_numpy(float)
+    def find_worse(self, laws):
+        """Return whether the law of a row is worse than that of a column, by the share of the tie and by resamples."""
+        values = self.values[laws].to_numpy(float)
+        number = self.number(values)
         which = np.random.default_rng(0).integers(len(values), size=(DRAWS, len(values)))
-        return take(criterion, values[which])
-
-    def beats(self, criterion):
-        """Return whether the law of a row is better than that of a column."""
-        if criterion in self.compared:
-            return self.compared[criterion]
-        sense = -1.0 if criterion in MORE_IS_BETTER else 1.0
-        number = sense * self.number(criterion)
-        own, other = number.to_numpy()[:, None], number.to_numpy()[None, :]
+        drawn = self.number(values[which])
         with np.errstate(invalid="ignore"):
-            least = 4.0 if criterion == "tick" else 0.01 * np.abs(other)
-            is_better = (own < other) & (np.isinf(other) | (other - own > least))
-            values = sense * self.values[criterion].to_numpy(float)
-            if LEVELS.get(criterion) == 1.0:
-                is_better &= (values[:, None, :] > values.max(axis=0)[None, :, None]).sum(axis=0) >= 5
-            elif len(values) > 1:
-                drawn = sense * self.drawn(criterion)
-                less = np.nan_to_num(drawn[:, :, None] - drawn[:, None, :], nan=0.0, posinf=np.inf, neginf=-np.inf)
-                is_better &= np.quantile(less, 0.975, axis=0, method="inverted_cdf") < 0.0
-        self.compared[criterion] = pd.DataFrame(is_better, number.index, number.index)
-        return self.compared[criterion]
+            more = np.nan_to_num(drawn[:, :, None] - drawn[:, None, :], nan=0.0, posinf=np.inf, neginf=-np.inf)
+        is_sure = np.quantile(more, 0.025, axis=0, method="inverted_cdf") > 0.0
+        is_notable = number[None, :] < (1.0 - TIE) * number[:, None]
+        return pd.DataFrame(is_sure & is_notable, laws, laws)
 
-    def front(self, laws, criteria):
-        """Return the laws that no other is better than by one of the criteria and worse than by none."""
-        better = [self.beats(one).reindex(index=laws, columns=laws) for one in criteria if one in self.values]
-        wins = np.any([one.eq(True).to_numpy() for one in better], axis=0)
-        dominated = (wins & ~wins.T).any(axis=0)
-        return [law for law, is_out in zip(laws, dominated, strict=True) if not is_out] or list(laws)
+    def decide(self):
+        """Return the verdict."""
+        laws = self.qualify()
+        is_worse = self.find_worse(laws)
+        published = [law for law in laws if not is_ours(law)]
+        kept = [law for law in laws if not is_worse.loc[law, published].any()]
+        unbeaten = [law for law in kept if law in published]
+        first, *tied = sorted(unbeaten, key=lambda law: (*simplicity(law), law))
+        ours = [law for law in kept if law not in published]
+        faster = [law for law in laws if law not in published and is_worse.loc[first, law]]
+        return first, tuple(tied), frozenset(ours), frozenset(faster), len(laws)
 
-    def has(self, fact):
-        """Return law -> whether it has one of the facts of `needs`."""
-        number = self.number
-        return {
-            needs.FACTS["everywhere"]: lambda: (number("unsettled") + number("lost") == 0) & (number("detour") < 1.5),
-            needs.FACTS["nearly"]: lambda: number("unsettled") <= 0.1 + 1e-9,
-            needs.FACTS["tried"]: lambda: number("variation").notna(),
-        }[fact]()
 
-    def decide(self, need):
-        """Return the decision in a situation."""
-        facts = [self.has(fact).reindex(self.laws, fill_value=False) for fact in need.facts]
-        asked = [law for law in self.laws if all(one[law] for one in facts) and not is_ours(law)]
-        asked = [law for law in asked if all(law in self.values[by] for by in need.by)]
-        best = self.front(asked, need.by) if need.by else asked
-        kept = self.front(best, GENERAL)
-        law = min(kept, key=lambda law: (*self.simplicity(law), law))
-        return needs.Decision(law, tuple(one for one in kept if one != law), tuple(best), tuple(asked))
+def unordered(verdict: Verdict):
+    """Return a verdict as `Asked.decide` has it: our own laws in no order."""
+    return verdict.law, verdict.tied, frozenset(verdict.ours), frozenset(verdict.faster), verdict.asked
+
+
+def simplicity(law):
+    """Return the numbers kept and the operations of a tick."""
+    return len(find_contender(law).regulator.memory or ()), sum(operations(law))
 
 
 def is_ours(law):
@@ -128,28 +114,6 @@ def common(rows):
     return rows[ran == rows["law"].nunique()]
 
 
-def alone(numbers):
-    """Return one row of a number a law."""
-    return pd.Series(numbers, dtype=float).to_frame().T
-
-
-def timed(uniform, directed, peak):
-    """Return the criteria that every kind of command has."""
-    time = by_start(uniform, "settling_time_s", np.inf)
-    laws = time.columns
-    ways = pd.concat([uniform, directed[directed["start_set"] == "half-turn"]]).groupby("law")["path_ratio"].max()
-    lost = (directed["outcome"] != "settled").groupby(directed["law"]).sum()
-    return {
-        **dict.fromkeys(("time", "worst", "median"), time),
-        "unsettled": 100.0 * np.isinf(time),
-        "lost": alone(lost.reindex(laws, fill_value=0)),
-        "detour": alone(ways.reindex(laws)),
-        "peak": by_start(uniform, peak, np.inf),
-        "tick": alone(shares_of_time().reindex(laws)),
-        "memory": alone({law: len(find_contender(law).regulator.memory or ()) for law in laws}),
-    }
-
-
 def shares_of_time():
     """Return law -> its time alone over a whole controller's [%]."""
     [path] = (RESULTS / "timings").glob("*.parquet")
@@ -165,40 +129,54 @@ def standard(rows):
     return rows[(rows["inverse"] == "solve") | ~has_plain]
 
 
+def count(rows, is_counted):
+    """Return law -> how many of its rows are counted."""
+    return is_counted.groupby(rows["law"]).sum()
+
+
 @functools.cache
-def accelerations(folder="reference"):
-    """Return what laws that command accelerations or torques were asked."""
-    rows = table("episodes", folder)
-    free = rows.query("task == 'free-body' and engine in ('ideal-rk4', 'native')")
+def arms():
+    """Return the laws on arms: turns that need a motor's rating or the end of a joint's range, or do not settle."""
+    rows = table("episodes")
+    free = rows.query("task == 'free-body' and engine in ('ideal-rk4', 'native') and start_set == 'uniform'")
     on_main = free["law"].isin(free.loc[free["engine"] == "ideal-rk4", "law"])
-    free = free[(free["engine"] == "ideal-rk4") | ~on_main]
-    uniform, directed = common(free.query("start_set == 'uniform'")), common(free[free["start_set"].isin(DIRECTED)])
-    perturbed = table("robustness", folder)
-    at = dict(iter(perturbed.groupby(["axis", "level"])))
-    arms = rows.query("task == 'arm-regulation' and start_set == 'uniform' and jacobian == 'geometric'")
-    arms = standard(arms.query("variation == 'nominal' and engine == 'native'"))
-    settled = arms["outcome"] == "settled"
-    within = settled & (arms["peak_torque_ratio"] <= 0.99) & (arms["range_excess_rad"] <= 0.0)
-    known = uniform["law"].unique()
-    arms = arms.assign(settled=100.0 * settled, within=100.0 * within)[arms["law"].isin(known)]
-    return Asked(
-        {
-            **timed(uniform, directed, "peak_u"),
-            "effort": by_start(uniform, "effort", np.inf),
-            "arms": by_start(arms, "settled"),
-            "within": by_start(arms, "within"),
-            "variation": by_start(at["delay", 0.0], "variation", np.inf),
-        }
-    )
+    uniform = common(free[(free["engine"] == "ideal-rk4") | ~on_main])
+    counts = {
+        "lost": count(uniform, uniform["outcome"] != "settled"),
+        "unwound": count(uniform, uniform["path_ratio"] > DETOUR),
+    }
+    overshoot = by_start(uniform, "overshoot_rad")
+    on_arms = rows.query("task == 'arm-regulation' and start_set == 'uniform' and jacobian == 'geometric'")
+    on_arms = standard(on_arms.query("variation == 'nominal' and engine == 'native'"))
+    is_free = (on_arms["peak_torque_ratio"] <= 0.99) & (on_arms["range_excess_rad"] <= 0.0)
+    on_arms = on_arms.assign(missed=1.0 - (is_free & (on_arms["outcome"] == "settled")))
+    missed = by_start(on_arms[on_arms["law"].isin(uniform["law"])], "missed")
+    deg = pd.Series(np.degrees(crowd(overshoot.to_numpy())), overshoot.columns)
+    return Asked(missed, pd.DataFrame(counts), mean, deg)
+
+
+def first_order(starts):
+    """Return the first-order laws by the times of some starts; detours and 180° are those of the free body."""
+    free = table("velocity").query("limiter == 'none' and share == 1.0 and arm == ''")
+    uniform, exact = (common(free[free["start_set"] == name]) for name in ("uniform", "half-turn"))
+    counts = {
+        "lost": count(starts, starts["outcome"] != "settled"),
+        "stuck": count(exact, exact["outcome"] != "settled"),
+        "unwound": count(uniform, uniform["furthest_rad"] > uniform["angle0_rad"] + AWAY_RAD),
+    }
+    times = by_start(starts, "settling_time_s", np.inf)
+    return Asked(times, pd.DataFrame(counts), crowd)
 
 
 @functools.cache
 def velocities():
-    """Return what laws that command velocities were asked."""
-    rows = table("velocity").query("limiter == 'none' and share == 1.0")
-    rows = rows[rows["law"].isin(accelerations().laws)]
-    free, arms = rows.query("arm == ''"), standard(rows.query("arm != '' and lag_s == 0 and start_set == 'uniform'"))
-    uniform, exact = (common(free[free["start_set"] == name]) for name in ("uniform", "half-turn"))
-    arms = arms[arms["law"].isin(uniform["law"])]
-    arms = arms.assign(settled=100.0 * (arms["outcome"] == "settled"))
-    return Asked({**timed(uniform, exact, "peak_omega"), "arms": by_start(arms, "settled")})
+    """Return the laws that command velocities."""
+    free = table("velocity").query("limiter == 'none' and share == 1.0 and arm == ''")
+    return first_order(common(free[free["start_set"] == "uniform"]))
+
+
+@functools.cache
+def positions():
+    """Return the laws that command velocities, on servos that lag."""
+    late = table("velocity").query("limiter == 'none' and share == 1.0 and arm != '' and lag_s > 0")
+    return first_order(standard(late))

@@ -14,7 +14,6 @@ import tasks
 from bench.base.provenance import ROOT
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
-from bench.findings.selection.robots import VELOCITY
 from bench.law.attribution import IN_WORDS
 from bench.law.contenders.registry import find_contender
 from report.figures.kit.families import word
@@ -129,8 +128,8 @@ def recompute_noise():
 
 def recompute_velocities():
     rows = table("velocity-limits").query("law == 'rotation-vector' and arm == '' and share == 1 and reach == 'near'")
-    one = velocities().decide(VELOCITY.need)
-    said = [word(one.law), *list_together([*map(word, one.tied)])] if one.tied else [word(one.law), len(one.asked)]
+    law, tied, *_, asked = velocities().decide()
+    said = [word(law), *list_together([*map(word, tied)])] if tied else [word(law), asked, 5]
     return {"log_limit": f"{rows['k_dt'].iloc[0]:.3g}", "lead": said}
 
 

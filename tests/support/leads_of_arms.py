@@ -10,10 +10,10 @@ from scipy.stats import binomtest
 import tasks
 from bench.audit.examined import COUNT_RAD
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.selection.robots import ARM
 from bench.findings.theory.impedance_modes import hand_matrices, hand_of
 from report.figures.kit.families import word
-from support.advised import accelerations, costs, is_ours, operations, shares_of_time
+from support import advised
+from support.advised import costs, is_ours, operations, shares_of_time
 from support.tables import table
 
 CARTESIAN, EULER = "hybrid-base", "hybrid/zyx-euler"
@@ -114,7 +114,7 @@ def recompute_arms():
     by_arm = rows.groupby("arm")["settled"].mean().sort_values()
     for arm in (by_arm.index[0], by_arm.index[-1]):
         said += [tasks.arm(arm).title, round(100 * by_arm[arm])]
-    return {"advised": word(accelerations().decide(ARM.need).law), "lead": said}
+    return {"advised": word(advised.arms().decide()[0]), "lead": said}
 
 
 def torque_ratios_at_pole():

@@ -2,8 +2,8 @@
 
 from bench.cli.paragraphs import Paragraph
 from bench.findings.selection import regions
-from bench.findings.selection.needs import Measured
 from bench.findings.selection.robots import list_elsewhere
+from bench.findings.selection.run_rows import Compared
 from bench.findings.selection.sensitivity import vary
 from bench.findings.selection.unbeaten import SPOKEN, find_bounds
 from bench.findings.selection.words import (
@@ -23,7 +23,7 @@ from bench.law.inputs import PAPERS_GAINS
 from tasks.situation import KP, NOMINAL
 
 
-def paragraphs(found: Measured | None) -> list[Paragraph]:
+def paragraphs(found: Compared | None) -> list[Paragraph]:
     """Return what the map advises, what else to use elsewhere, and how laws of ours and the user's compare."""
     default = regions.find_regions()[0]
     said = [
@@ -63,14 +63,14 @@ def paragraphs(found: Measured | None) -> list[Paragraph]:
     return [*said, Paragraph("Other rules", (text,))]
 
 
-def _default(found: Measured | None, region: regions.Region) -> tuple[str, ...]:
+def _default(found: Compared | None, region: regions.Region) -> tuple[str, ...]:
     rows = regions.read_map()
     [row] = rows[
         (rows["situation"] == NOMINAL.word) & (rows["contender"] == region.law)
     ].to_dict("records")
     drawn = sum(map(regions.is_drawn, regions.decide_all()))
     priced = (
-        f" A tick takes {cost(found, region.law)}."
+        f" A tick takes {cost(found.tables, region.law)}."
         if found and region.law in found.laws
         else ""
     )
@@ -110,8 +110,7 @@ def _elsewhere(default: str) -> tuple[str, ...]:
     return tuple(lines)
 
 
-def _compared(found: Measured | None, law: str, default: str) -> str:
+def _compared(found: Compared | None, law: str, default: str) -> str:
     if found is None or not {law, default} <= set(found.laws):
         return f"This run cannot compare it with {default}."
-    said = compare(found, law, default)
-    return f"In this run: {said[0].lower()}{said[1:]}"
+    return f"In this run, {compare(found, law, default)}"

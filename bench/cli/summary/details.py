@@ -7,7 +7,7 @@ from bench.cli.summary import answer, failures
 from bench.findings.claims import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.kept import keep
-from bench.findings.selection.needs import measure
+from bench.findings.selection.run_rows import compare_free_body
 
 
 def print_sentences(folder: Path) -> None:
@@ -24,6 +24,6 @@ def print_sentences(folder: Path) -> None:
 def _find_answer(results: Results) -> dict:
     """Return the heads and sentences of the answer, as JSON holds them."""
     try:
-        return {"said": answer.paragraphs(measure(results))}
+        return {"said": answer.paragraphs(compare_free_body(results))}
     except NoEvidence:
         return {"said": answer.paragraphs(None)}

@@ -1,6 +1,6 @@
 """What is printed wrongly in Murphy 1988 (errata.toml), each with its check, and what no run decides (untestable.toml).
 
-coverage.toml: what the book does with each numbered equation and figure.
+coverage.toml: what each numbered equation and figure says, its claims, and its subjects.
 
 Where a check can be computed it is the function `check_` and the erratum's id, which returns True if it is confirmed;
 the others are by reading.
@@ -15,6 +15,7 @@ import numpy as np
 
 from bench.findings.claims import probes
 from bench.findings.claims.verdict import read_texts
+from bench.findings.subjects import SentenceSubject
 from bench.law.contenders.registry import representation
 from bench.law.inputs import Gains
 from bench.law.so3 import from_quaternion
@@ -36,12 +37,12 @@ class Erratum(NamedTuple):
 
 
 class Item(NamedTuple):
-    """A part of the paper: its number or place, what it says, claims and errata on it, and pages that use it."""
+    """A part of the paper: its number or place, what it says, claims and errata on it, and its subjects."""
 
     paper: str
     says: str
     claims: tuple[str, ...]
-    pages: tuple[str, ...]
+    subjects: tuple[SentenceSubject, ...]
 
 
 ZYX = representation("zyx-euler")
@@ -104,6 +105,6 @@ UNTESTABLE: list[dict[str, str]] = read_texts(Path(__file__).with_name("untestab
 """Sentences of the paper that no run decides: section, where it stands; quote, its words; why it is not tested here."""
 
 COVERAGE = tuple(
-    Item(paper, says, tuple(on.split()), tuple(pages.split()))
-    for paper, says, on, pages in read_texts(Path(__file__).with_name("coverage.toml"))["items"]
+    Item(paper, says, tuple(on.split()), tuple(map(SentenceSubject, subjects.split())))
+    for paper, says, on, subjects in read_texts(Path(__file__).with_name("coverage.toml"))["items"]
 )

@@ -1,1 +1,1 @@
-"""Which law to use: by the map of situations and its `regions`; by criteria, a row a law, for `robots` beside it."""
+"""Which law to use: by the map of situations and the rule of `regions`, which also decides for `robots` beside it."""

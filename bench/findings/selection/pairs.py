@@ -7,15 +7,16 @@ apart that their common starts do.
 
 import functools
 import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from bench.experiments.situations import CROWD, summarize
 from bench.experiments.tables.read import with_contender
-from bench.experiments.tables.statistics import TAIL, quantile, resampled_quantile
+from bench.experiments.tables.statistics import TAIL, quantile, resampled, resampled_quantile
 from bench.experiments.tables.store import read
 
 NUMBERS = ("log_ratio", "error", "low", "high")
@@ -76,25 +77,38 @@ def compare_laws(starts: pd.DataFrame) -> pd.DataFrame:
 
 
 def compare_times(times: dict[str, np.ndarray]) -> list[dict]:
-    """Return a pair for every two laws; times: of each law, of the same starts in the same order, some of fewer.
+    """Return a pair for every two laws, by their 99 % times; times: of each law, as `compare_values` takes them."""
+    of_crowd = functools.partial(quantile, level=CROWD)
+    return compare_values(times, of_crowd, functools.partial(resampled_quantile, level=CROWD))
 
-    The paired bootstrap: a resample draws starts, and both times are of the starts that it drew (B. Efron, Ann. Stat.
-    7, 1979). Its quantiles are the same for every pair of equally many starts, and are therefore computed once.
+
+def compare_shares(is_missed: dict[str, np.ndarray]) -> list[dict]:
+    """Return a pair for every two laws, by the share of their starts that miss."""
+    return compare_values(is_missed, np.mean, functools.partial(resampled, statistic=np.mean))
+
+
+def compare_values(
+    values: dict[str, np.ndarray],
+    number: Callable[[np.ndarray], Any],
+    resampled_number: Callable[[np.ndarray], np.ndarray],
+) -> list[dict]:
+    """Return a pair for every two laws; values: of each law, of the same starts in the same order, some of fewer.
+
+    number, resampled_number: what is compared, of a law's values and of each resample of them. The paired bootstrap: a
+    resample draws starts, and both numbers are of the starts that it drew (B. Efron, Ann. Stat. 7, 1979). They are the
+    same for every pair of equally many starts, and are therefore computed once.
     """
-    counts = sorted({len(times_of_law) for times_of_law in times.values()})
+    counts = sorted({len(values_of_law) for values_of_law in values.values()})
     logarithms = {}
-    for law, times_of_law in times.items():
+    for law, values_of_law in values.items():
         for count in counts:
-            if count <= len(times_of_law):
-                first = times_of_law[:count]
+            if count <= len(values_of_law):
+                first = values_of_law[:count]
                 with np.errstate(divide="ignore"):
-                    logarithms[law, count] = (
-                        np.log(quantile(first, CROWD)),
-                        np.log(resampled_quantile(first, CROWD)),
-                    )
+                    logarithms[law, count] = np.log(number(first)), np.log(resampled_number(first))
     found = []
-    for law, other in itertools.combinations(sorted(times), 2):
-        count = min(len(times[law]), len(times[other]))
+    for law, other in itertools.combinations(sorted(values), 2):
+        count = min(len(values[law]), len(values[other]))
         (time, resampled), (other_time, other_resampled) = logarithms[law, count], logarithms[other, count]
         if np.isinf(time) and np.isinf(other_time):
             continue

@@ -1,6 +1,6 @@
 """The law that nothing beats in a situation, by the rows of results/situations, and the regions that such laws have.
 
-The rule was committed before the map was run:
+The rule was committed before the map was run; `robots` applies it to robots that the map does not cover:
 
 1. A law must settle from every start tried, exact 180° rotations among them; it must not first turn away from the goal;
    worst-case noise of 0.1 rad must not trap it at 180°; and it must not overshoot by over OVERSHOOT more than that law
@@ -15,6 +15,7 @@ The rule was committed before the map was run:
 
 import collections
 import functools
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -25,8 +26,9 @@ import pandas as pd
 from bench.experiments.tables.read import with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
-from bench.findings.selection.criteria import jump
+from bench.findings.selection.jump import jump
 from bench.findings.selection.pairs import find_slower, read_pairs
+from bench.law.contender import Contender
 from bench.law.contenders.registry import find_contender
 from tasks.situation import COORDINATES, Situation, read_situation
 
@@ -55,8 +57,9 @@ class Rule(NamedTuple):
     everywhere: no start is lost, no exact 180° rotation holds it. direct: it never first turns away from the goal.
     adversary: worst-case noise does not trap it. overshoot: by how much it may exceed the least overshoot [deg].
     forgetful: it keeps nothing from tick to tick. continuous: its command does not jump at 180°; exact 180° rotations
-    may hold such a law, for all that keep nothing have some. by: the column that is compared. tie: the relative
-    difference up to which two laws tie. least_peak: of the laws that tie, the one of least peak command is advised.
+    may hold such a law, for all that keep nothing have some. by: the column that is compared; less is better. tie: the
+    relative difference up to which two laws tie. least_peak: of the laws that tie, the one of least peak command is
+    advised.
     """
 
     everywhere: bool = True
@@ -71,6 +74,9 @@ class Rule(NamedTuple):
 
 
 RULE = Rule()
+
+PAIRED = ("time", "missed")
+"""Numbers by which laws are compared start by start."""
 
 
 class Verdict(NamedTuple):
@@ -101,11 +107,26 @@ class Facts(NamedTuple):
     is_ours: bool
 
 
+FACTS = "facts"
+"""The column of facts, in rows of laws that this repository may not have."""
+
+
+def find_facts(one: Contender) -> Facts:
+    """Return the facts of a law, which may be a user's."""
+    return Facts(len(one.regulator.memory or ()), abs(jump(one)) < CONTINUOUS, one.regulator.is_ours())
+
+
 @functools.cache
 def facts_of(law: str) -> Facts:
     """Return the facts of a law of this repository."""
-    one = find_contender(law)
-    return Facts(len(one.regulator.memory or ()), abs(jump(one)) < CONTINUOUS, one.regulator.is_ours())
+    return find_facts(find_contender(law))
+
+
+def list_facts(rows: pd.DataFrame) -> list[Facts]:
+    """Return the facts of the law of each row."""
+    if FACTS in rows:
+        return rows[FACTS].tolist()
+    return [facts_of(law) for law in rows["contender"].astype(str)]
 
 
 @functools.cache
@@ -128,7 +149,7 @@ def decide(rows: pd.DataFrame, rule: Rule = RULE, pairs: pd.DataFrame | None = N
     has = meets(rows, rule)
     qualified = rows[has]
     laws = qualified["contender"].astype(str).tolist()
-    facts = [facts_of(law) for law in laws]
+    facts = list_facts(qualified)
     is_ours = np.array([fact.is_ours for fact in facts], dtype=bool)
     if is_ours.all():  # or none is left
         return Verdict(None, ours=tuple(laws))
@@ -148,6 +169,8 @@ def decide(rows: pd.DataFrame, rule: Rule = RULE, pairs: pd.DataFrame | None = N
 def meets(rows: pd.DataFrame, rule: Rule = RULE) -> np.ndarray:
     """Return whether the law of each row meets the requirements of a rule in the situation of the row."""
     has = meets_but_overshoot(rows, rule)
+    if math.isinf(rule.overshoot):  # it need not have been measured
+        return has
     return has & ~find_overshooting(rows, has, rule.overshoot)
 
 
@@ -156,7 +179,7 @@ def find_overshooting(rows: pd.DataFrame, has: np.ndarray, more: float) -> np.nd
 
     Nothing overshoots where no published law has the rest: there is nothing to compare with.
     """
-    is_ours = np.array([facts_of(law).is_ours for law in rows["contender"].astype(str)], dtype=bool)
+    is_ours = np.array([fact.is_ours for fact in list_facts(rows)], dtype=bool)
     compared = rows["overshoot"].where(has & ~is_ours)
     least = compared.groupby(rows["situation"].astype(str)).transform("min")
     return (rows["overshoot"] > least + more).to_numpy()
@@ -164,7 +187,7 @@ def find_overshooting(rows: pd.DataFrame, has: np.ndarray, more: float) -> np.nd
 
 def meets_but_overshoot(rows: pd.DataFrame, rule: Rule = RULE) -> np.ndarray:
     """Return whether the law of each row meets the requirements of a rule other than that of its overshoot."""
-    facts = [facts_of(law) for law in rows["contender"].astype(str)]
+    facts = list_facts(rows)
     memory = np.array([fact.memory for fact in facts], dtype=int)
     has = np.isfinite(rows[rule.by].to_numpy(dtype=float))
     if rule.everywhere:
@@ -187,7 +210,7 @@ def find_beaten(rows: pd.DataFrame, rule: Rule, pairs: pd.DataFrame | None = Non
 
     The median, the 99.9 % time and the effort have no interval: there the share `tie` alone decides.
     """
-    if rule.by == "time" and pairs is not None:
+    if rule.by in PAIRED and pairs is not None:
         return find_slower(pairs, rows["contender"].astype(str).tolist(), rule.tie)
     times = rows[rule.by].to_numpy(dtype=float)
     is_notable = times[None, :] < (1.0 - rule.tie) * times[:, None]

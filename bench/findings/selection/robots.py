@@ -1,84 +1,55 @@
-"""What a robot takes, and the laws that the rule advises for it: each by rows of robots that take just that.
+"""The robots that the map does not cover, and the laws that the map's rule advises for each, by the rows of a run.
 
-By a criterion that such rows have no number for, laws tie.
+One rule decides (`regions`); a robot says which of its requirements its rows can answer, and which number decides.
 """
 
-import math
+import functools
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-import pandas as pd
-
-from bench.base.errors import BadResults
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
-from bench.findings.selection.criteria import CRITERIA
 from bench.findings.selection.nearest import answer
-from bench.findings.selection.needs import FACTS, Decision, Measured, Need, decide, measure, measured
-from bench.findings.selection.regions import Rule, find_default
-from bench.findings.selection.tables import by_law, by_standard_inverse, common, tables_of
+from bench.findings.selection.regions import Rule, Verdict, decide, find_default
+from bench.findings.selection.run_rows import Compared, compare_arms, compare_positions, compare_velocities
+from bench.findings.subjects import SentenceSubject
 from tasks.situation import UNCANCELLED
 
+OF_ARMS = Rule(adversary=False, by="missed")
+"""A goal that is never exactly 180° away leaves no place for noise at 180°."""
 
-def measure_velocities(results: Results) -> Measured:
-    """Return the criteria of every first-order law at the full share of K, without a limiter; peak is of omega."""
-    advice = "no robot was commanded by velocities (try: bench run --experiment velocity)"
-    try:
-        rows = results.table("velocity", limiter="none")
-    except BadResults as error:  # a run that is older than the table
-        raise NoEvidence(advice) from error
-    rows = rows[rows["share"] == 1.0] if len(rows) else rows
-    if rows.empty:
-        raise NoEvidence(advice)
-    law = rows["contender"].astype(str).str.partition("@")[0]
-    rows = rows.assign(contender=law, lost=rows["outcome"].astype(str) != "settled")
-    tables = tables_of(results)
-    rows = rows[rows["contender"].isin(tables.contenders)]
-    free = rows[rows["arm"] == ""]
-    uniform, exact = (common(free[free["start_set"] == name]) for name in ("uniform", "half-turn"))
-    known = {name: one for name, one in tables.contenders.items() if name in set(uniform["contender"])}
-    tables = tables._replace(contenders=known, uniform=uniform, directed=exact, robustness=pd.DataFrame())
-    at_once, late = (by_standard_inverse(rows[is_late]) for is_late in (rows["lag_s"] == 0.0, rows["lag_s"] > 0.0))
-    at_once = at_once[at_once["start_set"] == "uniform"]
-    as_ever = ("unsettled", "lost", "detour", "time", "worst", "tick", "memory")
-    values = {one.name: one.measure(tables) if one.name in as_ever else {} for one in CRITERIA}
-    return Measured(
-        tables,
-        values
-        | {
-            "peak": by_law(uniform, "peak_omega", math.inf),
-            "arms": by_law(at_once.assign(passed=100.0 * ~at_once["lost"]), "passed"),
-            "late": by_law(late, "settling_time_s", math.inf),
-        },
-    )
+OF_FIRST_ORDER = Rule(adversary=False, overshoot=float("inf"))
+"""First-order laws were run without noise, and their overshoot was not measured."""
+
+MEASURES: dict[str, tuple[Rule, Callable[[Results], Compared]]] = {
+    "arm": (OF_ARMS, compare_arms),
+    "velocity": (OF_FIRST_ORDER, compare_velocities),
+    "position": (OF_FIRST_ORDER, compare_positions),
+}
+"""The rule of each robot, and what compares laws on its rows."""
 
 
 class Robot(NamedTuple):
-    """A kind of robot: what it takes, the rows that were run, its page in the book, and how laws are measured on it."""
+    """A kind of robot: what it takes, what was run, its subject, the rule, and what compares laws on its rows."""
 
     takes: str
     rows: str
-    page: str
-    need: Need
-    measure: Callable[[Results], Measured]
+    subject: SentenceSubject
+    rule: Rule
+    compare: Callable[[Results], Compared]
 
 
 ROBOTS = {
-    name: Robot(
-        said["takes"],
-        said["rows"],
-        said["page"],
-        Need(tuple(FACTS[word] for word in said["facts"]), tuple(said.get("by", ()))),
-        measure if name == "arm" else measure_velocities,
-    )
-    for name, said in tomllib.loads(Path(__file__).with_name("robots.toml").read_text(encoding="utf-8")).items()
+    name: Robot(texts["takes"], texts["rows"], SentenceSubject(texts["subject"]), *MEASURES[name])
+    for name, texts in tomllib.loads(
+        Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")
+    ).items()
 }
 """The robots of robots.toml by name."""
 ARM, VELOCITY, POSITION = ROBOTS.values()
-
 
 RUN = RESULTS / "reference"
 """The run by which robots beside those of the map are advised: for the terminal, the front page and every table.
@@ -87,35 +58,42 @@ A run of one's own has other starts, and so other ties: read of it, the terminal
 """
 
 
-def decide_for(robot: Robot, folder: Path = RUN) -> Decision | None:
+@functools.cache
+def compare_for(robot: Robot, folder: Path) -> Compared:
+    """Return the laws compared on the rows of a robot in the run of a folder; NoEvidence if it has none."""
+    return robot.compare(Results(folder))
+
+
+def decide_for(robot: Robot, folder: Path = RUN) -> Verdict | None:
     """Return what is advised for a robot by the run in a folder; None where the run has no such rows."""
     try:
-        return decide(robot.need, measured(folder, robot.measure))
+        compared = compare_for(robot, folder)
     except NoEvidence:
         return None
+    return decide(compared.rows, robot.rule, compared.pairs)
 
 
 class Elsewhere(NamedTuple):
-    """What leads to a law: the words after "if", the law, those that tie with it, how many were compared, the page."""
+    """What leads to a law: the words after "if", the law, those that tie with it, how many meet the requirements."""
 
     words: str
     law: str
     tied: tuple[str, ...] = ()
     compared: int = 0
-    page: str = "07-which-error"
 
 
 def list_elsewhere() -> list[Elsewhere]:
     """Return the law for robots and controllers that are not those of the default, by the map and by RUN."""
     uneven = answer(UNCANCELLED).verdict
+    stores, jumps = Rule(forgetful=True), Rule(continuous=True)
     found = [
         Elsewhere("you command torques, and cancel no inertia", uneven.law or "none", uneven.tied, uneven.asked),
-        Elsewhere("your controller stores nothing between control periods", find_default(rule=Rule(forgetful=True))),
-        Elsewhere("the command must be continuous", find_default(rule=Rule(continuous=True))),
+        Elsewhere("your controller stores nothing between control periods", find_default(rule=stores)),
+        Elsewhere("the command must be continuous", find_default(rule=jumps)),
     ]
     for robot in ROBOTS.values():
-        decision = decide_for(robot)
-        if decision and decision.law:
+        verdict = decide_for(robot)
+        if verdict and verdict.law:
             words = f"your robot takes {robot.takes}"
-            found.append(Elsewhere(words, decision.law, decision.tied, len(decision.asked), robot.page))
+            found.append(Elsewhere(words, verdict.law, verdict.tied, verdict.asked))
     return found

@@ -1,7 +1,7 @@
 """The rows of a run that laws are compared on: the free body, the same starts for every law, and the time of a law.
 
 A law's time is a share of a whole controller's (`bench.running.timing.controller`) with the rotation-matrix law, by the
-times of results/timings. Laws tie where shares differ by at most `standing.MEASURABLE`.
+times of results/timings.
 """
 
 from __future__ import annotations

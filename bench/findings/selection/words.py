@@ -5,8 +5,11 @@ import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from bench.findings.selection.needs import GENERAL, Decision, Measured
-from bench.findings.selection.regions import RULE, STUDY, list_ours
+from bench.findings.amounts import count, join_words
+from bench.findings.selection.pairs import find_slower
+from bench.findings.selection.regions import RULE, STUDY, Rule, Verdict, find_overshooting, list_ours, meets
+from bench.findings.selection.run_rows import Compared
+from bench.findings.selection.tables import Tables
 from bench.findings.selection.unbeaten import (
     SPOKEN,
     Place,
@@ -26,16 +29,16 @@ NAMED = 3
 Called = Callable[[str], str]
 
 
-def standing(one: Decision, called: Called) -> str:
-    """Say that the advised law is alone on the Pareto front, or with which laws it ties."""
-    if len(one.asked) == 1:
-        return "No other published or adapted law of this run meets these conditions."
-    if not one.tied:
+def standing(verdict: Verdict, called: Called) -> str:
+    """Say that the advised law alone is unbeaten, or with which laws it ties."""
+    if verdict.asked == 1:
+        return "No other law of this run meets the requirements."
+    if not verdict.tied:
         return (
-            f"{len(one.asked)} published or adapted laws meet these conditions. The advised law "
-            "is at least as good as the others on every criterion and better on one."
+            f"{verdict.asked} laws meet the requirements. Each of the other published and adapted laws is more than "
+            f"{percent(RULE.tie)} slower than one of these laws; the advised law is not."
         )
-    return f"The law ties with {together([called(law) for law in one.tied])} and is the simplest of these laws."
+    return f"The law ties with {together([called(law) for law in verdict.tied])} and is the simplest of these laws."
 
 
 def together(words: Sequence[str], named: int = NAMED) -> str:
@@ -47,34 +50,60 @@ def together(words: Sequence[str], named: int = NAMED) -> str:
     return f"{', '.join(first)} and {last}" if first else last
 
 
-def cost(found: Measured, law: str) -> str:
+def cost(tables: Tables, law: str) -> str:
     """Flops and calls a tick, and of a law that was timed its share of a whole controller's tick."""
-    flops, calls = found.tables.spent(law)
-    share = found.number("tick", law)
-    timed = "" if math.isnan(share) else f", {share:.1f} % of the time of a whole controller's step"
+    flops, calls = tables.spent(law)
+    share = tables.ticks.get(law)
+    timed = "" if share is None else f", {share:.1f} % of the time of a whole controller's step"
     operations = f"{flops} operations and {calls} calls" if calls else f"{flops} operations"
     return f"{operations}{timed}"
 
 
-WORDS = {"effort": "effort", "peak": "peak command", "variation": "variation", "tick": "time of a control step"}
-TIMES = {"time": "of 99 % of the starts", "worst": "of the slowest start"}
-"""Criteria, and in TIMES settling times, as a list of what a law is better or worse by has them."""
+LACKS = {
+    "lost": ("uniform start", "does not settle from {}"),
+    "stuck": ("exact 180° rotation", "does not settle from {}"),
+    "unwound": ("uniform start", "turns the long way from {}"),
+    "trapped": ("episode", "is trapped at 180° by a sensor error in {}"),
+}
+"""Counts of a run that the requirements forbid: what is counted, and what a law does."""
 
 
-def compare(found: Measured, law: str, other: str) -> str:
-    """Say by which criteria a law is better and worse than another in a run; by all others they tie."""
-    both = [one for one in GENERAL if {law, other} <= set(found.values[one])]
-    better, worse = (
-        name_criteria([one for one in both if found.beats(one, *pair)]) for pair in ((law, other), (other, law))
+def compare(compared: Compared, law: str, other: str, rule: Rule = RULE) -> str:
+    """Say which of two laws of a run is faster by the rule, and what the first one lacks of the requirements."""
+    laws = [law, other]
+    times = [compared.row(name)["time"] for name in laws]
+    [[_, is_slower], [is_faster, _]] = find_slower(compared.pairs, laws, rule.tie)
+    if is_slower or is_faster:
+        verdict = f"by our rule, {law} is {'slower' if is_slower else 'faster'}"
+    else:
+        verdict = "by our rule, the two laws tie"
+    return (
+        f"99 % of the uniform starts settle within {_seconds(times[0])} with {law} and within {_seconds(times[1])} "
+        f"with {other}; {verdict}. {describe_lacks(compared, law, rule)}"
     )
-    return f"Compared with {other}, {law} is better by {better}, and worse by {worse}."
 
 
-def name_criteria(names: Sequence[str]) -> str:
-    """List criteria, the settling times among them in brackets."""
-    words = [word for name, word in WORDS.items() if name in names]
-    times = [word for name, word in TIMES.items() if name in names]
-    return ", ".join([*words, *([f"settling time {' and '.join(times)}"] if times else [])]) or "nothing"
+def _seconds(time: float) -> str:
+    return f"{time:.3f} s" if math.isfinite(time) else "no time that was simulated"
+
+
+def describe_lacks(compared: Compared, law: str, rule: Rule = RULE) -> str:
+    """Say what a law of a run lacks of the requirements of a rule, by what was tried there."""
+    row = compared.row(law)
+    parts = []
+    for column, (noun, words) in LACKS.items():
+        number = row.get(column, math.nan)
+        if number > 0:
+            parts.append(words.format(count(int(number), noun)))
+    has = meets(compared.rows, rule._replace(overshoot=math.inf))
+    overshoots = find_overshooting(compared.rows, has, rule.overshoot)
+    if overshoots[compared.laws.index(law)]:
+        parts.append(f"overshoots by {row['overshoot']:.0f}°, over {rule.overshoot:g}° more than the least")
+    if not row["trapped"] >= 0:
+        parts.append("was not tried with noise at 180°")
+    if parts:
+        return f"{law} lacks what we require: it {join_words(parts)}."
+    return f"{law} meets our requirements here."
 
 
 def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from bench.base.provenance import cpu_name, describe
 from bench.findings.judgement import Judgement
+from bench.findings.subjects import find_reading
 from bench.regression.revisions.times import Timed
 
 REGRESSION, CHANGE, IMPROVEMENT = "regression", "change", "improvement"
@@ -111,7 +112,8 @@ def write_markdown(comparison: Comparison) -> str:
 def _write_judgement(one: Judgement) -> list[str]:
     """Return why a law does what it does, faults first, and the laws nearest to it."""
     lines = [f"**{escape(one.heading or one.name)}: {', '.join(one.faults) or 'no fault found'}**", ""]
-    lines += [f"- {escape(each.text)} ({each.page})" for each in sorted(one.said, key=lambda each: not each.fault)]
+    for each in sorted(one.said, key=lambda each: not each.fault):
+        lines.append(f"- {escape(each.text)} ({find_reading(each.subject)})")
     if one.beside:
         lines += ["", "The laws nearest to it in pull at 90 degrees and median settling time:", ""]
         lines += _write_table(one.beside)

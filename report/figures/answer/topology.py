@@ -2,9 +2,12 @@
 
 import math
 
+import numpy as np
+
 from bench.experiments.situations import NOISE_RAD
 from bench.findings.amounts import join_words
-from bench.findings.selection.needs import is_unheld, measured, settles_everywhere
+from bench.findings.selection.regions import list_facts
+from bench.findings.selection.run_rows import compare_run, is_unheld, settles_everywhere
 from report.figures.kit import families, html, media
 from report.figures.kit.page import Run, in_run
 
@@ -47,21 +50,21 @@ def describe_fates() -> str:
 
 def count_laws(run: Run) -> dict[str, object]:
     """Count laws by what they have: starts that all settle, no noise that holds them at 180°, no memory."""
-    found = measured(run.folder)
-    shown = [law for law in found.laws if law not in (*families.CONTROLS, MUJOCOS)]
-    whole = [law for law in shown if settles_everywhere(found, law)]
-    unheld = [law for law in whole if is_unheld(found, law)]
-    remembering = [law for law in unheld if found.number("memory", law)]
-    forgetful = [law for law in shown if not found.number("memory", law) and law in found.values["held"]]
-    both = [law for law in forgetful if law in unheld]
+    every = compare_run(run.folder).rows
+    rows = every[~every["contender"].isin((*families.CONTROLS, MUJOCOS))]
+    is_whole = settles_everywhere(rows)
+    has_both = is_whole & is_unheld(rows)
+    has_memory = np.array([fact.memory > 0 for fact in list_facts(rows)], dtype=bool)
+    is_forgetful = ~has_memory & rows["held"].notna()
+    unheld = int(has_both.sum())
     return {
-        "laws": len(shown),
-        "whole": len(whole),
-        "unheld": len(unheld),
-        "unheld_memory": describe_part(len(remembering), len(unheld)),
+        "laws": len(rows),
+        "whole": int(is_whole.sum()),
+        "unheld": unheld,
+        "unheld_memory": describe_part(int((has_both & has_memory).sum()), unheld),
         "noise": f"{NOISE_RAD:g}",
-        "forgetful": len(forgetful),
-        "forgetful_both": len(both) or "none",
+        "forgetful": int(is_forgetful.sum()),
+        "forgetful_both": int((has_both & is_forgetful).sum()) or "none",
     }
 
 

@@ -25,6 +25,7 @@ from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import prose
 from report.figures.replication.conclusions import call_laws
+from report.subjects import find_page
 from tasks.situation import KP, NOMINAL
 
 REGIONS = html.Table(
@@ -205,8 +206,10 @@ def describe_condition(answer: Answer) -> str:
 def list_needs() -> Iterator[tuple]:
     """Return a row for each kind of controller: the answer's, and of torques whose inertia is not cancelled."""
     for need in find_answer().needs:
-        page = ROBOTS[need.name].page if need.name in ROBOTS else ""
-        rows = f'<a href="{page}.html">rows</a>' if page else html.MISSING
+        rows = html.MISSING
+        if need.name in ROBOTS:
+            page = find_page(ROBOTS[need.name].subject)
+            rows = f'<a href="{page}.html">rows</a>'
         law = f"{_named(need.law)} ({need.attribution})" if need.law != NOT_TESTED else need.law
         yield prose(need.controller), law, prose(call_laws(need.why)), prose(call_laws(need.price)), rows
     uneven = list_elsewhere()[0]

@@ -6,8 +6,8 @@ import pandas as pd
 
 from bench.findings.amounts import capitalize, join_words
 from bench.findings.claims.adequacy import DETOUR
-from bench.findings.selection.needs import Decision, decide, measured
-from bench.findings.selection.robots import VELOCITY
+from bench.findings.selection.regions import Verdict
+from bench.findings.selection.robots import VELOCITY, decide_for
 from bench.findings.selection.words import standing, together
 from bench.findings.theory.velocity_limits import with_theory
 from report.figures.kit import families
@@ -30,7 +30,7 @@ def facts(run: Run) -> dict:
     known = found[found["k_dt_theory"] > 0.0]
     logarithm = found.query("law == 'rotation-vector' and arm == '' and share == 1.0 and reach == 'near'")
     return {
-        "lead": lead(decide(VELOCITY.need, measured(run.folder, VELOCITY.measure))),
+        "lead": lead(decide_for(VELOCITY, run.folder)),
         "gain": float(rows["gain"].iloc[0]),
         "log_limit": f"{float(logarithm['k_dt'].iloc[0]):.3g}" if len(logarithm) else None,
         "uniform": len(uniform) // uniform["law"].nunique(),
@@ -49,13 +49,13 @@ def named(laws: Iterable[str]) -> str:
     return join_words(names) if names else "no law"
 
 
-def lead(one: Decision) -> str:
+def lead(one: Verdict | None) -> str:
     """Return what is advised, and with whom it ties."""
-    if one.law is None:
+    if one is None or one.law is None:
         return "No law of this run settles from every start when it commands velocities."
     if not one.tied:
         return f"{families.word(one.law)}. {capitalize(standing(one, families.word))}"
     ties = together([families.word(law) for law in one.tied])
     laws = f"{ties} laws" if ties.endswith(" more") else ties
-    tie = f"By the criteria of our rule, this law ties with {laws}. It is the simplest of these laws."
+    tie = f"By our rule, this law ties with {laws}. It is the simplest of these laws."
     return f"{families.word(one.law)}. {tie}"

@@ -12,7 +12,7 @@ from bench.experiments.tables import read
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims.tables import share
 from bench.findings.selection import tables as compared
-from bench.findings.selection.needs import measured
+from bench.findings.selection.run_rows import compare_run
 from bench.findings.start_sets import AT_REST
 from report.figures.comparison.equal_peak import describe_slopes, list_tuned, write_table
 from report.figures.cost.cost import CALLS, totals
@@ -84,7 +84,7 @@ def near(rows: pd.DataFrame) -> dict:
 def compare_laws(run: Run, times: pd.DataFrame, efforts: pd.DataFrame) -> Iterator[tuple]:
     """Return a row a law: what settles, how fast, effort, peak, a tick, lost starts, what noise holds."""
     rows, tried, counted = uniform(run), directed_starts(ideal(run)), run.any_rows("costs", **read.FREE_BODY)
-    held = in_run(lambda: measured(run.folder).values["held"]) or {}
+    held = in_run(lambda: list_held(run)) or {}
     for name in families.in_order(times):
         own, sure = rows[rows["contender"] == name], read.converged(tried[tried["contender"] == name])
         yield (
@@ -96,8 +96,14 @@ def compare_laws(run: Run, times: pd.DataFrame, efforts: pd.DataFrame) -> Iterat
             large(own["peak_u"].max()),
             tick(counted, name),
             count_lost(sure) if len(sure) else html.UNTESTED,
-            html.cell(float(held[name][0])) if name in held else html.UNTESTED,
+            html.cell(held[name]) if name in held else html.UNTESTED,
         )
+
+
+def list_held(run: Run) -> dict[str, float]:
+    """Return the least noise tried that traps each law at 180°; laws that were not tried are missing."""
+    rows = compare_run(run.folder).rows.dropna(subset="held")
+    return dict(zip(rows["contender"], rows["held"], strict=True))
 
 
 def count_lost(rows: pd.DataFrame) -> str:

@@ -9,8 +9,8 @@ from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.amounts import count_of
 from bench.findings.maps import at_gains, count_in
-from bench.findings.selection.needs import measured
 from bench.findings.selection.regions import read_map
+from bench.findings.selection.run_rows import compare_run
 from bench.findings.selection.sensitivity import tune
 from bench.findings.selection.words import together
 from bench.findings.theory.thresholds import HALF_TURN
@@ -131,7 +131,7 @@ def count_at_equal_peak() -> Count:
 
 def count_settling(run: Run) -> Iterator[Count]:
     """Count the laws that settle and those compared, at evenly spread starts and at directed ones."""
-    compared = measured(run.folder)
+    compared = compare_run(run.folder)
     laws = [law for law in compared.laws if law not in (*families.CONTROLS, IN_ENGINE)]
     ideal, uniform = comparison.ideal(run), comparison.uniform(run)
     directed = comparison.directed_starts(ideal)

@@ -6,8 +6,8 @@ import pandas as pd
 
 from bench.engines.counting import RULES as COUNT_RULES
 from bench.findings.amounts import count, count_of, join_words
-from bench.findings.selection.needs import CHATTER
 from bench.findings.theory.closed_form import linear_settling
+from bench.findings.why import CHATTER
 from bench.law.attribution import ADAPTED, OURS, PUBLISHED
 from bench.law.contenders.registry import contenders
 from report.figures.kit import families, html

@@ -15,6 +15,7 @@ from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose
 from report.figures.replication.conclusions import EVIDENCE, link_claims
+from report.subjects import find_pages
 
 ITEMS = html.Table(
     "Part of the paper | What this part says | Chapter of this book | Claims | Where the evidence "
@@ -49,7 +50,7 @@ def describe_item(item: Item, verdicts: Mapping[str, Verdict]) -> tuple:
     tables = list_tables(verdicts[claim] for claim in claims if claim in verdicts)
     command = read_commands()[item.paper]
     shown = f"`{command}`" if command else html.MISSING
-    pages = ", ".join(map(link_page, item.pages))
+    pages = ", ".join(map(link_page, find_pages(item.subjects)))
     shown_links, shown_tables = ", ".join(links) or html.MISSING, tables or html.MISSING
     return prose(name_part(item.paper)), prose(item.says), pages, shown_links, shown_tables, shown
 
