@@ -28,4 +28,25 @@ cli/          the command line, one file a command
 
 The judge (plants, arms, starts, rules, truth) is the package `tasks`, which imports nothing from here; the book is
 `report`, which nothing here imports.
+
+From Python: `bench.load("episodes", engine="ideal-rk4")`, `bench.advise(kp=400, kv=28)` and `bench.audit(my_error)`
+(cli/notebook.py and audit/). `import bench` imports none of them; what is called first does.
 """
+
+import importlib
+from typing import Any
+
+__all__ = ["advise", "audit", "load"]
+
+
+def __getattr__(name: str) -> Any:
+    """Import what is asked for by name; by `import_module`, so that no room depends on them by importing `bench`."""
+    if name == "audit":
+        return importlib.import_module("bench.audit")
+    if name in __all__:
+        return getattr(importlib.import_module("bench.cli.notebook"), name)
+    raise AttributeError(f"module 'bench' has no attribute '{name}'; it has {', '.join(__all__)}")
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *__all__])

@@ -3,13 +3,15 @@
 A function f(R, R_d) of two 3 x 3 matrices, or of two unit quaternions, returns three numbers. Its convention is found
 first (`convention.py`), then each file of `faults/` looks for one fault. The pairs are made from axis and angle in
 closed form, so that the right answers are known. The wheel `orientation-audit` is this package under another name.
-This module imports nothing: a plugin that is not used must cost nothing.
+This module imports nothing of ours: a plugin that is not used must cost nothing.
 """
 
 from __future__ import annotations
 
+import sys
+import types
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from bench.audit.report import Report
@@ -42,3 +44,13 @@ def audit(
     from bench.audit.examine import examine
 
     return examine(function, Stated(takes, frame, sign, stiffness, allow), name or getattr(function, "__name__", "f"))
+
+
+class _CalledModule(types.ModuleType):
+    """This module, called as its function: `bench.audit(my_error)`, where the package has the function's name."""
+
+    def __call__(self, *words: Any, **options: Any) -> Report:
+        return audit(*words, **options)
+
+
+sys.modules[__name__].__class__ = _CalledModule

@@ -168,24 +168,32 @@ class Reader:
 
         A package that is imported by its name brings all its modules: who has it may look into its folder for them.
         """
-        files: set[Path] = set()
-        modules = [module]
-        while modules:
-            name = modules.pop()
-            path = self.find_file(name)
-            parent, _, _ = name.rpartition(".")
-            if parent:
-                modules.append(parent)  # of a name that is no module it is the module that has it
-            if path is None or path in files:
-                continue
-            files.add(path)
-            for target in self.read(path).imports:
-                modules.append(target)
-                file = self.find_file(target)
-                if file and file.name == "__init__.py":
-                    modules += self._list_modules(file.parent)
-        return frozenset(files)
+        found: set[str] = set()
+        waiting = [module]
+        while waiting:
+            name = waiting.pop()
+            if name not in found:
+                found.add(name)
+                waiting += self._list_needed(name)
+        paths = map(self.find_file, found)
+        return frozenset(path for path in paths if path is not None)
 
+    @functools.cache  # noqa: B019
+    def _list_needed(self, name: str) -> tuple[str, ...]:
+        """Return what a name needs at once: its package, or the module that has it; and what its file imports."""
+        parent, _, _ = name.rpartition(".")
+        needed = {parent} if parent else set()
+        path = self.find_file(name)
+        for target in self.read(path).imports if path else ():
+            if target.partition(".")[0] not in PACKAGES:
+                continue
+            needed.add(target)
+            file = self.find_file(target)
+            if file and file.name == "__init__.py":
+                needed.update(self._list_modules(file.parent))
+        return tuple(needed)
+
+    @functools.cache  # noqa: B019
     def _list_modules(self, folder: Path) -> list[str]:
         paths = (path.relative_to(self.root).with_suffix("") for path in folder.rglob("*.py"))
         return [".".join(path.parts).removesuffix(".__init__") for path in paths]

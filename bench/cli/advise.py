@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import rich_click as click
 
@@ -13,7 +13,7 @@ from bench.cli.arm_options import is_asked_of_arm, load_chain, read_question, ta
 from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
 from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, frame_table
-from tasks.situation import NOMINAL, UNCANCELLED, rounded
+from tasks.situation import NOMINAL, UNCANCELLED, Situation, rounded
 
 if TYPE_CHECKING:
     from bench.findings.selection.regions import Rule
@@ -79,10 +79,7 @@ UNEVENNESS = options.Number(0.0, 0.5, 0.3)
 @click.option("--run", "is_run", is_flag=True, help="Simulate all laws, not only those that the map names.")
 @take_arm_options
 @click.pass_context
-def COMMAND(
-    context: click.Context, kp: float, kv: float, bound: float | None, delay: float, rate: float, spin: float,
-    jump: float, inertia: float, unevenness: float | None, robot: str, is_run: bool, **_: Any,
-) -> None:  # fmt: skip
+def COMMAND(context: click.Context, **_: Any) -> None:
     """Say which law to use in your situation, which laws tie with it, and what it costs.
 
     Closed forms come first: where every law is unstable, the answer is "No law", with the limits. The map of
@@ -94,30 +91,71 @@ def COMMAND(
     For an arm, name it and its stiffness in place of kp: you get the inertia that the tool's orientation spring feels
     over the workspace, the damping to set, the stable range of K and D, bound over kp, and the law at both ends.
     """
+    reply = find_reply(context)
+    print_paragraphs(*reply.paragraphs)
+    if getattr(reply.advice, "rows", None) is not None:
+        from bench.cli.advised import table
+
+        rows = table(reply.advice, context.params["kp"])
+        heading = "\nLaws simulated in your situation, the fastest first"
+        console().print(frame_table(rows, heading))
+
+
+class Reply(NamedTuple):
+    """What is answered.
+
+    Attributes:
+        paragraphs: The answer in words.
+        advice: The numbers behind it: an Advice; of an arm an ArmAnswer; of a robot that takes velocities or positions
+            a Decision, None if no law is advised.
+    """
+
+    paragraphs: list[Paragraph]
+    advice: Any
+
+
+def find_reply(context: click.Context) -> Reply:
+    """Answer the question that the options of `advise` ask."""
+    words = context.params
     if is_asked_of_arm(context):
-        _answer_arm(context.params)
-        return
-    if robot not in TORQUES:
-        print_paragraphs(_of_other_robot(robot))
-        return
-    from bench.cli.advised import paragraphs, table
+        return _answer_arm(words)
+    if words["robot"] not in TORQUES:
+        return _answer_other_robot(words["robot"])
+    from bench.cli.advised import paragraphs
     from bench.findings.selection.advice import advise
 
-    if unevenness is None:
-        unevenness = (UNCANCELLED if robot == TORQUES[1] else NOMINAL).unevenness
-    bound = math.inf if bound is None else bound
-    root = math.sqrt(kp)
-    numbers = kv / (2.0 * root), bound / kp, delay * root, root / rate, inertia, unevenness, spin / root, jump * root
-    wanted = rounded(numbers)
-    rule = _rule_of(context.params)
+    rule = _rule_of(words)
     with progress("laws", "reading the map") as steps:
-        advice = advise(wanted, rule, is_run, report=lambda law: steps.now(f"simulating {law}"))
-    print_paragraphs(*paragraphs(advice, kp))
-    if advice.rows is not None:
-        console().print(frame_table(table(advice, kp), "\nLaws simulated in your situation, the fastest first"))
+        advice = advise(
+            read_situation(words),
+            rule,
+            words["is_run"],
+            report=lambda law: steps.now(f"simulating {law}"),
+        )
+    return Reply(paragraphs(advice, words["kp"]), advice)
 
 
-def _answer_arm(words: dict[str, Any]) -> None:
+def read_situation(words: dict[str, Any]) -> Situation:
+    """Return the situation that the options describe, in units of kp."""
+    root = math.sqrt(words["kp"])
+    unevenness = words["unevenness"]
+    if unevenness is None:
+        unevenness = (UNCANCELLED if words["robot"] == TORQUES[1] else NOMINAL).unevenness
+    bound = math.inf if words["bound"] is None else words["bound"]
+    numbers = (
+        words["kv"] / (2.0 * root),
+        bound / words["kp"],
+        words["delay"] * root,
+        root / words["rate"],
+        words["inertia"],
+        unevenness,
+        words["spin"] / root,
+        words["jump"] * root,
+    )
+    return rounded(numbers)
+
+
+def _answer_arm(words: dict[str, Any]) -> Reply:
     """Answer a question about an arm."""
     from bench.cli.arm_answer import describe_arm
     from bench.findings.selection.arm_question import answer_arm
@@ -131,7 +169,7 @@ def _answer_arm(words: dict[str, Any]) -> None:
             is_whole=words["is_run"],
             report=lambda law: steps.now(f"simulating {law}"),
         )
-    print_paragraphs(*describe_arm(answer))
+    return Reply(describe_arm(answer), answer)
 
 
 def _rule_of(words: dict[str, Any]) -> Rule:
@@ -145,18 +183,19 @@ def _rule_of(words: dict[str, Any]) -> Rule:
     )
 
 
-def _of_other_robot(robot: str) -> Paragraph:
+def _answer_other_robot(robot: str) -> Reply:
     """Say what is advised where a robot takes velocities or positions, by the run that came with the benchmark."""
     from bench.findings.selection.robots import ROBOTS, decide_for
 
     kind = ROBOTS[robot]
     decision = decide_for(kind)
     if decision is None or decision.law is None:
-        return Paragraph("Which law", (f"No law of results/reference is advised where a robot takes {kind.takes}.",))
+        text = f"No law of results/reference is advised where a robot takes {kind.takes}."
+        return Reply([Paragraph("Which law", (text,))], None)
     tied = f", tied with {listed(decision.tied)}" if decision.tied else ""
     text = (
         f"Use {decision.law}{tied}. Your robot takes {kind.takes}; compared were "
         f"{counted(len(decision.asked), 'law')} of results/reference ({kind.rows}). Gains, bound and timing do not "
         "enter here: laws of first order have one gain, and its time scale is 1/K."
     )
-    return Paragraph("Which law", (text,))
+    return Reply([Paragraph("Which law", (text,))], decision)

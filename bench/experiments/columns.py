@@ -10,6 +10,7 @@ CAPITALS stand for columns that tables share (shared.toml), in a key too, or for
 
 from __future__ import annotations
 
+import json
 import tomllib
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -51,7 +52,10 @@ class Table(NamedTuple):
         return [one.name for one in self.columns()]
 
     def schema(self) -> pa.Schema:
-        """Return the schema of the parquet file, with units and meanings as the columns' metadata."""
+        """Return the schema of the parquet file, with units and meanings as the columns' metadata.
+
+        The units are in it twice: pandas drops the columns' metadata, and reads its own key PANDAS_ATTRS.
+        """
         import pyarrow as pa  # names of tables and columns need it not
 
         types = {WORD: pa.dictionary(pa.int32(), pa.string())}
@@ -60,7 +64,13 @@ class Table(NamedTuple):
             pa.field(one.name, types[one.type], metadata={"unit": one.unit, "meaning": one.meaning})
             for one in self.columns()
         ]
-        return pa.schema(fields, metadata={"orientation-bench table": self.name, "orientation-bench schema": VERSION})
+        units = {one.name: one.unit for one in self.columns()}
+        metadata = {
+            "orientation-bench table": self.name,
+            "orientation-bench schema": VERSION,
+            "PANDAS_ATTRS": json.dumps({"units": units}),
+        }
+        return pa.schema(fields, metadata=metadata)
 
 
 def read_columns(declared: dict[str, Any], groups: dict[str, Callable[[], list[Column]]]) -> list[Column]:

@@ -61,6 +61,19 @@ def test_plugin_of_pytest_imports_no_more_than_what_starts_an_audit():
     assert {one for one in found if one.startswith(("bench", "tasks", "numpy"))} == {f"bench{one}" for one in ours}
 
 
+@pytest.mark.parametrize(
+    ("code", "ours"),
+    [
+        ("import bench; dir(bench); bench.audit; code = 0", {"bench", "bench.audit"}),
+        ("import bench; hasattr(bench, 'nothing'); code = 0", {"bench"}),
+    ],
+)
+def test_package_imports_no_room_of_its_own_and_no_other_package(code, ours):
+    found = imported(code)
+    assert {one for one in found if one.partition(".")[0] in ("bench", "tasks")} == ours
+    assert not {one.partition(".")[0] for one in found} & (SLOW | {"numpy", "click", "rich"})
+
+
 def test_python_without_our_packages_says_the_cure():
     ended = subprocess.run([sys.executable, "-S", "-m", "bench"], capture_output=True, text=True, cwd=ROOT)
     assert ended.returncode == 2

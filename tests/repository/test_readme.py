@@ -61,6 +61,16 @@ def test_plant_of_the_docs_is_driven_at_random_to_the_end_of_its_episode(capsys)
     assert "150" in capsys.readouterr().out  # N m, the UR5e's largest motors
 
 
+def test_example_of_the_page_on_data_loads_rows_with_units(capsys, monkeypatch):
+    monkeypatch.setenv("ORIENTATION_BENCH_RESULTS", str(ROOT / "results" / "reference"))
+    page = (ROOT / "report/pages/appendix-data.md").read_text(encoding="utf-8")
+    [example] = re.findall(r"^```python\n(.*?load\(.*?)^```", page, re.DOTALL | re.MULTILINE)
+    exec(example, {})
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[-1] == "s"
+    assert any(line.startswith("mrp-memory ") and line.endswith(" 1.000") for line in lines), lines
+
+
 def test_law_is_short_and_loses_no_start(capsys, here):
     assert LAW.count("\n") <= 15
     sets = ("--starts", "half-turn", "--starts", "poles", "--starts", "uniform", "--engine", "ideal-rk4")

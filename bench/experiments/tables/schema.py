@@ -40,9 +40,10 @@ def readme() -> str:
         "(`make libraries`), `contact/` what tasks in contact depend on, `robustness/` shares of hundreds of starts a",
         "level (CONTRIBUTING.md lists the studies), `constants/` laws with other values of constants that are ours,",
         "`proofs/` what is proved of laws from their source (`make prove`), `floor/` the least settling time.",
-        "Every table is parquet, its units are in the columns' metadata (which pandas does not keep: they are below),",
-        "and `provenance.json` says where a run comes from. In `episodes` a start has a row for each `engine` that",
-        "ran it: choose one, as `ideal-rk4` on the free body, before you count starts.",
+        "Every table is parquet, and `provenance.json` says where a run comes from. Units are below, and in the files:",
+        '`bench.load("episodes").attrs["units"]` has them, and so has `pandas.read_parquet(path).attrs["units"]` of a',
+        "file that version 0.2 or a later one wrote. In `episodes` a start has a row for each `engine` that ran it:",
+        "choose one, as `ideal-rk4` on the free body, before you count starts.",
     ]
     for table in all_tables().values():
         lines += ["", f"## {table.name}.parquet", "", table.about, ""]

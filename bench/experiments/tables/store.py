@@ -159,6 +159,19 @@ def _refuse_words(path: Path, arrow: pa.Table) -> None:
                 raise BadResults(f"{path}: {word!r:.80} in column {name!r} is no word of ours; delete the file")
 
 
+def read_name(path: Path) -> str:
+    """Return the name of the table that a file says it is; BadResults if it is no parquet file that can be read."""
+    refuse_link(Path(path))
+    try:
+        metadata = pq.read_schema(path).metadata or {}
+    except FileNotFoundError:
+        raise NoTable(f"{path}: there is no such file; run `make bench` (or bench run) first") from None
+    except (OSError, pa.ArrowException) as error:
+        reason = str(error).splitlines()[0]
+        raise BadResults(f"{path}: it is no parquet file ({reason}); give one of a results folder") from error
+    return metadata.get(b"orientation-bench table", b"").decode(errors="replace")
+
+
 def frame(path: Path, table: str | Table) -> pd.DataFrame:
     """Return a file of a table as a data frame, checked by `read_arrow`."""
     return read_arrow(path, table).to_pandas(ignore_metadata=True)
