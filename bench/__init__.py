@@ -36,17 +36,29 @@ From Python: `bench.load("episodes", engine="ideal-rk4")`, `bench.advise(kp=400,
 import importlib
 from typing import Any
 
-__all__ = ["advise", "audit", "load"]
+__all__ = [
+    "advise",
+    "audit",
+    "load",
+]
 
 
 def __getattr__(name: str) -> Any:
-    """Import what is asked for by name; by `import_module`, so that no room depends on them by importing `bench`."""
+    """Import a function of `__all__`; by `import_module`, so that no room depends on it by importing `bench`."""
     if name == "audit":
         return importlib.import_module("bench.audit")
     if name in __all__:
-        return getattr(importlib.import_module("bench.cli.notebook"), name)
-    raise AttributeError(f"module 'bench' has no attribute '{name}'; it has {', '.join(__all__)}")
+        notebook = importlib.import_module("bench.cli.notebook")
+        return getattr(notebook, name)
+    known = ", ".join(__all__)
+    raise AttributeError(
+        f"module 'bench' has no attribute '{name}'; it has {known}",
+    )
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *__all__])
+    names = [
+        *globals(),
+        *__all__,
+    ]
+    return sorted(names)
