@@ -19,11 +19,10 @@ experiments/  one file an experiment with its columns, units and rows; what plan
 export/       laws as code for another's controller: C, C++, Python, JavaScript, with test vectors; wheel, which has the
               audit and all laws in Python
 running/      run, run_folder (until it is finished), order, precompile, sandbox (a user's laws), answers, wire_format,
-              schedulers/ (threads, and a Dask cluster)
+              schedulers/ (threads, and a Dask cluster), timing/ (time per tick)
 findings/     claims/ (the paper's sentences), selection/ (which law), why (what a law does), theory/ (closed forms);
               kept: found once, and again when anything differs
-regression/   rows/ (two runs), revisions/ (two revisions), history (every build), timings (time per
-              tick); timer runs tests/benchmarks for the last three
+regression/   rows/ (two runs), revisions/ (two revisions), history (every build)
 studies/      what is run rarely: libraries/ (other robot libraries), contact/, verdicts, gates, scale, settings
 cli/          the command line, one file a command
 
@@ -37,17 +36,29 @@ From Python: `bench.load("episodes", engine="ideal-rk4")`, `bench.advise(kp=400,
 import importlib
 from typing import Any
 
-__all__ = ["advise", "audit", "load"]
+__all__ = [
+    "advise",
+    "audit",
+    "load",
+]
 
 
 def __getattr__(name: str) -> Any:
-    """Import what is asked for by name; by `import_module`, so that no room depends on them by importing `bench`."""
+    """Import a function of `__all__`; by `import_module`, so that no room depends on it by importing `bench`."""
     if name == "audit":
         return importlib.import_module("bench.audit")
     if name in __all__:
-        return getattr(importlib.import_module("bench.cli.notebook"), name)
-    raise AttributeError(f"module 'bench' has no attribute '{name}'; it has {', '.join(__all__)}")
+        notebook = importlib.import_module("bench.cli.notebook")
+        return getattr(notebook, name)
+    known = ", ".join(__all__)
+    raise AttributeError(
+        f"module 'bench' has no attribute '{name}'; it has {known}",
+    )
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *__all__])
+    names = [
+        *globals(),
+        *__all__,
+    ]
+    return sorted(names)

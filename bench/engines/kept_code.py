@@ -48,7 +48,7 @@ CUT_BYTES = 100_000_000
 
 
 class PlaceOfCode(UserProvidedCacheLocator):
-    """Where code of our functions is kept, and by what it is known; numba makes it, for functions of others none."""
+    """Name the place of the code of our functions and its stamp; numba makes one for each function."""
 
     def __init__(self, function: Any, file: str) -> None:
         super().__init__(function, file)

@@ -126,7 +126,7 @@ def vee(R, R_d):
 
 def test_audit_is_called_by_the_name_of_its_package():
     report = bench.audit(vee, name="vee")
-    assert [found.fault.name for found in report.faults] == ["dead-at-180"]
+    assert report.faults == ("dead-at-180",)
     assert str(report) == str(bench.audit.audit(vee, name="vee"))
 
 

@@ -27,7 +27,7 @@ PLACES = {
     "tests/": ("base", "report", "cluster", "dev"),
     "": ("base",),
 }
-"""Where a file is -> the sets of packages that it may import; the first place that fits counts."""
+"""Sets of packages that a file may import, by its place; the first place that fits counts."""
 
 ELSEWHERE = {
     "pinocchio": "pin",
