@@ -12,7 +12,14 @@ from typing import NamedTuple
 
 from bench.experiments import arm as on_arms
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.experiments.probes import arms, commands, coordinates, sliding, turns, variables
+from bench.experiments.probes import (
+    arms,
+    commands,
+    coordinates,
+    sliding,
+    turns,
+    variables,
+)
 from bench.experiments.probes.number import Number
 
 
@@ -43,10 +50,14 @@ PROBES = {
     "sliding-decay": Probe(sliding.measure_decay, needs_real_poles=True),
     "sliding-bound": Probe(sliding.measure_bound, needs_real_poles=True),
     "sliding-frames": Probe(sliding.measure_frames, needs_real_poles=True),
-    "sliding-noise": Probe(sliding.measure_noise, 1.0, needs_real_poles=True),
+    "sliding-noise": Probe(
+        sliding.measure_noise, 1.0, needs_real_poles=True
+    ),
     "arm-curve": Probe(arms.measure_curves, 3.0, ()),
     "arm-pole": Probe(arms.measure_poles, 2.0, ()),
-    "arm-acceleration": Probe(arms.measure_accelerations, 0.1, arms.SIX_JOINTS),
+    "arm-acceleration": Probe(
+        arms.measure_accelerations, 0.1, arms.SIX_JOINTS
+    ),
     "contact-cost": Probe(arms.measure_contact_costs, 5.0),
     "error": Probe(commands.measure_errors, 1.0),
     "error-search": Probe(commands.search_errors),
@@ -72,7 +83,9 @@ PROBES = {
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return a unit a probe, of arms one on each arm."""
-    of_suite = tuple(dict.fromkeys(unit.arm for unit in on_arms.units(asked)))
+    of_suite = tuple(
+        dict.fromkeys(unit.arm for unit in on_arms.units(asked))
+    )
     has_real_poles = sliding.has_sliding_variable(asked.gains)
     found = []
     for word, probe in PROBES.items():

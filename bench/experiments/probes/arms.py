@@ -71,20 +71,35 @@ def euler_angles(R: Rotation) -> tuple:
     return representation("zyx-euler").chart(R).E
 
 
-def curves(name: str, arm: str, settings: Settings, dt_s: float, count: int) -> pd.DataFrame:
+def curves(
+    name: str, arm: str, settings: Settings, dt_s: float, count: int
+) -> pd.DataFrame:
     """Return traces from the first clear starts of an arm, and their departure from the linear response.
 
     A row a sample: start_id, time_s, position_error_m, bend_0 to bend_2 (E less E_d + (E_0 - E_d) x(t)) [rad].
     """
     unit = traces.of_arm(name, TASK, arm, count, CLEAR)
     frame = traces.rows(settings._replace(dt_s=dt_s, seed=0), unit)
-    goals = {start.id: start.goal_wxyz for start in tasks.start_set(CLEAR, count, 0, arm=arm)}
+    goals = {
+        start.id: start.goal_wxyz
+        for start in tasks.start_set(CLEAR, count, 0, arm=arm)
+    }
     parts = []
     for start_id, curve in frame.groupby("start_id", sort=False):
-        axes = [curve[[f"{column}_{x}" for x in "xyz"]].to_numpy().tolist() for column in "noa"]
-        E = np.array([euler_angles(Rotation(*columns)) for columns in zip(*axes, strict=True)])
+        axes = [
+            curve[[f"{column}_{x}" for x in "xyz"]].to_numpy().tolist()
+            for column in "noa"
+        ]
+        E = np.array(
+            [
+                euler_angles(Rotation(*columns))
+                for columns in zip(*axes, strict=True)
+            ]
+        )
         E_d = np.array(euler_angles(from_quaternion(goals[str(start_id)])))
-        response = linear_response(curve["time_s"].to_numpy(), settings.gains)
+        response = linear_response(
+            curve["time_s"].to_numpy(), settings.gains
+        )
         part = curve[["start_id", "time_s", "position_error_m"]].copy()
         part[list(BENDS)] = E - (E_d + (E[0] - E_d) * response[:, None])
         parts.append(part)
@@ -94,7 +109,9 @@ def curves(name: str, arm: str, settings: Settings, dt_s: float, count: int) -> 
 def largest(frame: pd.DataFrame) -> float:
     """Return the largest bend of any angle [rad]; infinite if one is no number."""
     bends = frame[list(BENDS)].to_numpy()
-    return float(np.abs(bends).max()) if np.isfinite(bends).all() else math.inf
+    return (
+        float(np.abs(bends).max()) if np.isfinite(bends).all() else math.inf
+    )
 
 
 def measure_curves(settings: Settings, unit: Unit) -> Iterator[Number]:
@@ -105,23 +122,37 @@ def measure_curves(settings: Settings, unit: Unit) -> Iterator[Number]:
     name = controller(BY_EULER, unit.arm)
     words = settings.contender(name).words
     full, half = (
-        curves(name, unit.arm, settings, dt_s, CURVES) for dt_s in (settings.dt_s, settings.dt_s / 2)
+        curves(name, unit.arm, settings, dt_s, CURVES)
+        for dt_s in (settings.dt_s, settings.dt_s / 2)
     )
-    both = full.merge(half, on=["start_id", "time_s"], suffixes=("", "_half"))
+    both = full.merge(
+        half, on=["start_id", "time_s"], suffixes=("", "_half")
+    )
     for start_id, own in both.groupby("start_id", sort=False):
         case = str(start_id)
         at_half = own[[f"{name}_half" for name in BENDS]].to_numpy()
         at_zero = np.abs(2 * at_half - own[list(BENDS)].to_numpy())
-        drift = np.abs(2 * own["position_error_m_half"] - own["position_error_m"]).to_numpy()
-        whole, halved = (largest(rows[rows["start_id"] == start_id]) for rows in (full, half))
+        drift = np.abs(
+            2 * own["position_error_m_half"] - own["position_error_m"]
+        ).to_numpy()
+        whole, halved = (
+            largest(rows[rows["start_id"] == start_id])
+            for rows in (full, half)
+        )
         yield Number("bend_rad", whole, case, words=words)
         yield Number("bend_at_half_step_rad", halved, case, words=words)
-        yield Number("bend_at_step_zero_rad", float(at_zero.max()), case, words=words)
-        yield Number("drift_at_step_zero_m", float(drift.max()), case, words=words)
+        yield Number(
+            "bend_at_step_zero_rad", float(at_zero.max()), case, words=words
+        )
+        yield Number(
+            "drift_at_step_zero_m", float(drift.max()), case, words=words
+        )
         yield Number("samples", float(len(own)), case, words=words)
 
 
-def episodes_at_poles(name: str, arm: str, settings: Settings) -> pd.DataFrame:
+def episodes_at_poles(
+    name: str, arm: str, settings: Settings
+) -> pd.DataFrame:
     """Return episodes from rest at 10^-2 from a pole or nearer, to the pose of their family at 10^-1.
 
     The poses are those of poses.parquet (`pose_sets.pole`), and start_id is the pose's.
@@ -136,13 +167,23 @@ def episodes_at_poles(name: str, arm: str, settings: Settings) -> pd.DataFrame:
         if name_of_pose.endswith("-1e-01"):
             goals[name_of_pose.removesuffix("-1e-01")] = judge.pose(q)[1]
     for name_of_pose, q in poses.items():
-        family = name_of_pose.rpartition("-1e-")[0] or name_of_pose.removesuffix("-exact")
+        family = name_of_pose.rpartition("-1e-")[
+            0
+        ] or name_of_pose.removesuffix("-exact")
         if not name_of_pose.endswith("-1e-01") and family in goals:
             starts.append(judge.start(name_of_pose, q, goals[family]))
     if not starts:
         return pd.DataFrame()
     unit = Unit(
-        "arm", name, TASK, arm, "native", "pole", IDEAL_MOTORS, count=len(starts), horizon_s=ON_ARM
+        "arm",
+        name,
+        TASK,
+        arm,
+        "native",
+        "pole",
+        IDEAL_MOTORS,
+        count=len(starts),
+        horizon_s=ON_ARM,
     )
     return rows_from(settings, unit, starts)
 
@@ -152,15 +193,30 @@ def measure_poles(settings: Settings, unit: Unit) -> Iterator[Number]:
     for one in (BY_EULER, ON_MATRIX):
         name = controller(one, unit.arm)
         words = settings.contender(name).words
-        for row in episodes_at_poles(name, unit.arm, settings).to_dict("records"):
+        for row in episodes_at_poles(name, unit.arm, settings).to_dict(
+            "records"
+        ):
             case, outcome = row["start_id"], row["outcome"]
-            yield Number("peak_tau_nm", row["peak_tau_nm"], case, outcome=outcome, words=words)
+            yield Number(
+                "peak_tau_nm",
+                row["peak_tau_nm"],
+                case,
+                outcome=outcome,
+                words=words,
+            )
 
 
-def measure_accelerations(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_accelerations(
+    settings: Settings, unit: Unit
+) -> Iterator[Number]:
     """Yield |xddot - u| / |u| under (2.2) at random states; at: masses of the plant over those of the model."""
-    for factor, variation in ((1.0, ""), (float(OFF.partition("-")[2]), OFF)):
-        for k, gap in enumerate(accelerations(unit.arm, variation, settings.seed)):
+    for factor, variation in (
+        (1.0, ""),
+        (float(OFF.partition("-")[2]), OFF),
+    ):
+        for k, gap in enumerate(
+            accelerations(unit.arm, variation, settings.seed)
+        ):
             yield Number("acceleration_gap", gap, f"state-{k:02d}", factor)
 
 
@@ -179,21 +235,27 @@ def accelerations(name: str, variation: str, seed: int) -> list[float]:
     data, body = mujoco.MjData(judge.model), mujoco.MjData(plant)
     rng, found = np.random.default_rng(seed), []
     for _ in range(STATES):
-        q = np.array(arm.home) + rng.uniform(-AROUND_RAD, AROUND_RAD, judge.model.nv)
+        q = np.array(arm.home) + rng.uniform(
+            -AROUND_RAD, AROUND_RAD, judge.model.nv
+        )
         qdot = rng.uniform(-1.0, 1.0, judge.model.nv)
         u = rng.uniform(-1.0, 1.0, 6)
         data.qpos[:], data.qvel[:] = q, qdot
         mujoco.mj_forward(judge.model, data)
         bias = data.qfrc_bias - data.qfrc_passive
         body.qpos[:], body.qvel[:] = q, qdot
-        body.qfrc_applied[:] = judge.inertia_matrix(q) @ resolved(judge, q, qdot, u) + bias
+        body.qfrc_applied[:] = (
+            judge.inertia_matrix(q) @ resolved(judge, q, qdot, u) + bias
+        )
         mujoco.mj_forward(plant, body)
         xddot = hand_acceleration(judge, q, qdot, body.qacc)
         found.append(float(np.linalg.norm(xddot - u) / np.linalg.norm(u)))
     return found
 
 
-def resolved(judge: Any, q: np.ndarray, qdot: np.ndarray, u: np.ndarray) -> np.ndarray:
+def resolved(
+    judge: Any, q: np.ndarray, qdot: np.ndarray, u: np.ndarray
+) -> np.ndarray:
     """Compute J^-1 (u - Jdot qdot), with Jdot by differences along the motion."""
     J = judge.jacobian(q)
     ends = [judge.jacobian(q + t * qdot) for t in (STEP_S, -STEP_S)]
@@ -201,15 +263,22 @@ def resolved(judge: Any, q: np.ndarray, qdot: np.ndarray, u: np.ndarray) -> np.n
     return np.linalg.solve(J, u - Jdot @ qdot)
 
 
-def hand_acceleration(judge: Any, q: np.ndarray, qdot: np.ndarray, qacc: np.ndarray) -> np.ndarray:
+def hand_acceleration(
+    judge: Any, q: np.ndarray, qdot: np.ndarray, qacc: np.ndarray
+) -> np.ndarray:
     """Compute d(J qdot)/dt by differences along the motion that follows, to second order in t."""
     ends = []
     for t in (-STEP_S, STEP_S):
-        ends.append(judge.jacobian(q + t * qdot + t * t / 2 * qacc) @ (qdot + t * qacc))
+        ends.append(
+            judge.jacobian(q + t * qdot + t * t / 2 * qacc)
+            @ (qdot + t * qacc)
+        )
     return (ends[1] - ends[0]) / (2 * STEP_S)
 
 
-def measure_contact_costs(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_contact_costs(
+    settings: Settings, unit: Unit
+) -> Iterator[Number]:
     """Yield flops and calls of a typical control period in contact; at: the number of joints."""
     for name in IN_CONTACT:
         for joints in INVERSES:
@@ -226,6 +295,8 @@ def count_rows(name: str, joints: int) -> list[dict]:
     from bench.engines.counting.in_contact import cost_in_contact
     from bench.law.control.registry import find_controller
 
-    numbers = cost_in_contact(find_controller(name), joints=joints).typical.of(TOTAL)
+    numbers = cost_in_contact(
+        find_controller(name), joints=joints
+    ).typical.of(TOTAL)
     calls = sum(numbers[call] for call in ("sin", "cos", "atan2", "acos"))
     return [{"flops": int(flops(numbers)), "calls": int(calls)}]

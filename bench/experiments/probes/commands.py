@@ -25,8 +25,17 @@ from tasks.base import Start
 from tasks.haar import axes
 from tasks.truth import angle
 
-START_SETS = ("uniform", "box", "goals", "half-turn", "paper", "poles", "tumbling", "wraps")
-"""Those that every suite has of the paper's laws in continuous time."""
+START_SETS = (
+    "uniform",
+    "box",
+    "goals",
+    "half-turn",
+    "paper",
+    "poles",
+    "tumbling",
+    "wraps",
+)
+"""Start sets that every suite has of the paper's laws in continuous time."""
 
 UNIFORM = 1000
 """Uniform starts, as the quick suite and the default one have."""
@@ -56,8 +65,15 @@ JUMP_RAD = 1e-9
 
 def doubles(numbers: Iterable) -> Any:
     """Return nested tuples with numpy's doubles, for which 1/0 is infinite as in every engine."""
-    inside = [doubles(x) if isinstance(x, tuple) else np.float64(x) for x in numbers]
-    return type(numbers)(*inside) if hasattr(numbers, "_fields") else tuple(inside)
+    inside = [
+        doubles(x) if isinstance(x, tuple) else np.float64(x)
+        for x in numbers
+    ]
+    return (
+        type(numbers)(*inside)
+        if hasattr(numbers, "_fields")
+        else tuple(inside)
+    )
 
 
 def command(
@@ -71,7 +87,9 @@ def command(
     law = find_contender(contender).law
     goal = doubles(Goal(R_d))
     with np.errstate(all="ignore"):
-        return np.array(law(doubles(R), doubles(omega), goal, doubles(gains)))
+        return np.array(
+            law(doubles(R), doubles(omega), goal, doubles(gains))
+        )
 
 
 def size(vector: np.ndarray) -> float:
@@ -96,14 +114,19 @@ def exact_error(R: Rotation, R_d: Rotation) -> list[Fraction]:
 
 def largest_product(R: Rotation) -> float:
     """Return the largest of the three cross products of (2.12), goal zero."""
-    return max(size(np.array(cross(c, d))) for c, d in zip(R, IDENTITY, strict=True))
+    return max(
+        size(np.array(cross(c, d)))
+        for c, d in zip(R, IDENTITY, strict=True)
+    )
 
 
 def starts(settings: Settings) -> list[Start]:
     """Return every start that the suites have of the paper's laws, UNIFORM uniform ones."""
     found: list[Start] = []
     for name in START_SETS:
-        found += tasks.start_set(name, UNIFORM if name == "uniform" else None, settings.seed)
+        found += tasks.start_set(
+            name, UNIFORM if name == "uniform" else None, settings.seed
+        )
     return found
 
 
@@ -117,14 +140,24 @@ def measure_errors(settings: Settings, unit: Unit) -> Iterator[Number]:
     """Yield |e|, the largest cross product, and the rounding of e at every start; at: the angle to the goal [rad]."""
     words = find_contender(MATRIX).words
     for start in starts(settings):
-        R, R_d = from_quaternion(start.quat_wxyz), from_quaternion(start.goal_wxyz)
+        R, R_d = (
+            from_quaternion(start.quat_wxyz),
+            from_quaternion(start.goal_wxyz),
+        )
         e = error(R, R_d)
         exact = exact_error(R, R_d)
-        gaps = [abs(Fraction(float(x)) - y) for x, y in zip(e, exact, strict=True)]
+        gaps = [
+            abs(Fraction(float(x)) - y)
+            for x, y in zip(e, exact, strict=True)
+        ]
         at = angle(start.quat_wxyz, start.goal_wxyz)
         yield Number("error", size(e), start.id, at, words=words)
-        yield Number("largest_product", largest_product(R), start.id, at, words=words)
-        yield Number("rounding_gap", float(max(gaps)), start.id, at, words=words)
+        yield Number(
+            "largest_product", largest_product(R), start.id, at, words=words
+        )
+        yield Number(
+            "rounding_gap", float(max(gaps)), start.id, at, words=words
+        )
 
 
 def rotation_by(vector: Sequence[float]) -> Rotation:
@@ -146,11 +179,18 @@ def search_errors(settings: Settings, unit: Unit) -> Iterator[Number]:
 
     words = find_contender(MATRIX).words
     for k, axis in enumerate(axes(SEARCHES)):
-        lowest = minimize(ratio, 1.5 * axis, method="Nelder-Mead", options={"maxiter": 200})
+        lowest = minimize(
+            ratio,
+            1.5 * axis,
+            method="Nelder-Mead",
+            options={"maxiter": 200},
+        )
         case = f"search-{k:02d}"
         yield Number("evaluations", float(lowest.nfev), case, words=words)
         yield Number("least_ratio", float(lowest.fun), case, words=words)
-        yield Number("error", size(error(rotation_by(lowest.x))), case, words=words)
+        yield Number(
+            "error", size(error(rotation_by(lowest.x))), case, words=words
+        )
 
 
 def measure_at_poles(settings: Settings, unit: Unit) -> Iterator[Number]:
@@ -164,32 +204,57 @@ def measure_at_poles(settings: Settings, unit: Unit) -> Iterator[Number]:
         spinning = command(FEEDBACK, R, SPIN, gains=settings.gains)
         yield Number("u_at_rest", size(rest), start.id, words=words)
         yield Number("u_spinning", size(spinning), start.id, words=words)
-        yield Number("largest_of_B", float(np.abs(euler_B(R)).max()), start.id, words=words)
+        yield Number(
+            "largest_of_B",
+            float(np.abs(euler_B(R)).max()),
+            start.id,
+            words=words,
+        )
 
 
 def measure_near_poles(settings: Settings, unit: Unit) -> Iterator[Number]:
     """Yield |u| of a spinning body near the poles; at: cos(beta)."""
     zyx, words = representation("zyx-euler"), find_contender(FEEDBACK).words
     low, high = GROWTH_DECADES
-    for k, sign, pair in itertools.product(range(low, high + 1), (1, -1), range(len(PAIRS))):
+    for k, sign, pair in itertools.product(
+        range(low, high + 1), (1, -1), range(len(PAIRS))
+    ):
         alpha, gamma = PAIRS[pair]
         R = zyx.to_matrix((alpha, sign * (math.pi / 2 - 10.0**-k), gamma))
         u = command(FEEDBACK, R, SPIN, gains=settings.gains)
         case = f"{'plus' if sign > 0 else 'minus'}-1e-{k:02d}-{pair}"
-        yield Number("u_spinning", size(u), case, float(zyx.margin(R)), words=words)
+        yield Number(
+            "u_spinning", size(u), case, float(zyx.margin(R)), words=words
+        )
 
 
 def measure_jumps(settings: Settings, unit: Unit) -> Iterator[Number]:
     """Yield |change of u| as alpha, or gamma, passes 180°, from 1e-9 rad before it to 1e-9 rad behind."""
-    to_matrix, words = representation("zyx-euler").to_matrix, find_contender(FEEDBACK).words
+    to_matrix, words = (
+        representation("zyx-euler").to_matrix,
+        find_contender(FEEDBACK).words,
+    )
     for side, (beta, other) in enumerate(SIDES):
         for name in ("alpha", "gamma"):
             ends = []
             for sign in (1, -1):
                 turn = sign * (math.pi - JUMP_RAD)
-                angles = (turn, beta, other) if name == "alpha" else (other, beta, turn)
-                ends.append(command(FEEDBACK, to_matrix(angles), gains=settings.gains))
-            yield Number("u_jump", size(ends[0] - ends[1]), f"{name}-{side}", words=words)
+                angles = (
+                    (turn, beta, other)
+                    if name == "alpha"
+                    else (other, beta, turn)
+                )
+                ends.append(
+                    command(
+                        FEEDBACK, to_matrix(angles), gains=settings.gains
+                    )
+                )
+            yield Number(
+                "u_jump",
+                size(ends[0] - ends[1]),
+                f"{name}-{side}",
+                words=words,
+            )
 
 
 def measure_B(settings: Settings, unit: Unit) -> Iterator[Number]:
@@ -198,8 +263,14 @@ def measure_B(settings: Settings, unit: Unit) -> Iterator[Number]:
     for start in starts(settings):
         R = from_quaternion(start.quat_wxyz)
         B = euler_B(R)
-        yield Number("largest_of_B", float(np.abs(B).max()), start.id, words=words)
+        yield Number(
+            "largest_of_B", float(np.abs(B).max()), start.id, words=words
+        )
         if is_exact_pole(R):
             values = np.linalg.svd(B, compute_uv=False)
-            yield Number("second_of_B", float(values[1]), start.id, words=words)
-            yield Number("least_of_B", float(values[2]), start.id, words=words)
+            yield Number(
+                "second_of_B", float(values[1]), start.id, words=words
+            )
+            yield Number(
+                "least_of_B", float(values[2]), start.id, words=words
+            )

@@ -22,7 +22,11 @@ from tasks.haar import axes
 
 ZYX = "zyx-euler"
 HALF = math.sqrt(0.5)
-ABOUT_Y = {180: (0.0, 0.0, 1.0, 0.0), 90: (HALF, 0.0, HALF, 0.0), -90: (HALF, 0.0, -HALF, 0.0)}
+ABOUT_Y = {
+    180: (0.0, 0.0, 1.0, 0.0),
+    90: (HALF, 0.0, HALF, 0.0),
+    -90: (HALF, 0.0, -HALF, 0.0),
+}
 """Quaternions of rotations about Y by so many degrees: the last two are the poles of Z-Y-X angles."""
 
 ANGLE_AND_AXIS = "angle and axis"
@@ -43,7 +47,7 @@ TURNS, TURNS_ELSEWHERE, TURNS_OF_ANGLES = 2000, 200, 200
 """Haar-random orientations at which work is balanced, of every other representation, and of the angles' axes."""
 
 SEED = 0
-"""Of these orientations, in every run."""
+"""Seed of these orientations, in every run."""
 
 POLE_DECADES, BESIDE = 12, 20
 """Distances from each pole down to 1e-12 rad, and orientations at each."""
@@ -56,7 +60,11 @@ STEP = 2.0 ** (-52 / 3)
 SINGULAR = 100.0 * 2.0**-52
 """Least singular value of B under which it has no inverse: a hundred roundings."""
 
-FORMS = {"zyx-euler": math.pi / 2, "xyz-euler": math.pi / 2, "zyz-euler": 0.0}
+FORMS = {
+    "zyx-euler": math.pi / 2,
+    "xyz-euler": math.pi / 2,
+    "zyz-euler": 0.0,
+}
 """Forms of Euler angles, and the middle angle at which each is degenerate [rad]."""
 
 FORM_DECADES, PAIRS = 6, 12
@@ -69,7 +77,9 @@ def matrix_B(along: Coordinates, R: Rotation) -> np.ndarray:
     """Return B of a representation at R: what each coordinate turns the body about, in its columns."""
     at = along.chart(R)
     rates = np.eye(len(at.E)).tolist()
-    return np.array([along.angular_velocity(at, tuple(rate)) for rate in rates]).T
+    return np.array(
+        [along.angular_velocity(at, tuple(rate)) for rate in rates]
+    ).T
 
 
 def euler_B(R: Rotation) -> np.ndarray:
@@ -79,7 +89,9 @@ def euler_B(R: Rotation) -> np.ndarray:
 
 def least_of_B(quat: tuple) -> float:
     """Return the smallest singular value of B of Z-Y-X angles at an orientation."""
-    return float(np.linalg.svd(euler_B(from_quaternion(quat)), compute_uv=False)[-1])
+    return float(
+        np.linalg.svd(euler_B(from_quaternion(quat)), compute_uv=False)[-1]
+    )
 
 
 def condition_in(word: str, R: Rotation) -> float:
@@ -99,12 +111,18 @@ def condition_of_angle_and_axis(E: np.ndarray) -> float:
 
     def to_matrix(E: Any) -> Any:
         sine, cosine = np.sin(E[1]), np.cos(E[1])
-        return turn((sine * np.cos(E[2]), sine * np.sin(E[2]), cosine), E[0])
+        return turn(
+            (sine * np.cos(E[2]), sine * np.sin(E[2]), cosine), E[0]
+        )
 
     R = to_matrix(E)
     columns = []
     for unit in np.eye(3):
-        slope = to_matrix(E + 1j * COMPLEX_STEP * unit).imag / COMPLEX_STEP @ R.T
+        slope = (
+            to_matrix(E + 1j * COMPLEX_STEP * unit).imag
+            / COMPLEX_STEP
+            @ R.T
+        )
         columns.append((slope[2, 1], slope[0, 2], slope[1, 0]))
     return float(np.linalg.cond(np.array(columns).T))
 
@@ -113,8 +131,15 @@ def condition_near_zero(word: str, axis: np.ndarray, angle: float) -> float:
     """Return the condition number in one of NEAR_ZERO of a rotation about an axis."""
     if word == ANGLE_AND_AXIS:
         x, y, z = axis
-        return condition_of_angle_and_axis(np.array((angle, math.acos(z), math.atan2(y, x))))
-    return condition_in(word, Rotation(*(tuple(column) for column in turn(axis, angle).T.tolist())))
+        return condition_of_angle_and_axis(
+            np.array((angle, math.acos(z), math.atan2(y, x)))
+        )
+    return condition_in(
+        word,
+        Rotation(
+            *(tuple(column) for column in turn(axis, angle).T.tolist())
+        ),
+    )
 
 
 def measure_near_zero(settings: Settings, unit: Unit) -> Iterator[Number]:
@@ -124,30 +149,54 @@ def measure_near_zero(settings: Settings, unit: Unit) -> Iterator[Number]:
             for word in NEAR_ZERO:
                 found = condition_near_zero(word, axis, 10.0**-k)
                 words = in_coordinates(word)
-                yield Number("condition", found, f"axis-{i:02d}", 10.0**-k, words=words)
+                yield Number(
+                    "condition",
+                    found,
+                    f"axis-{i:02d}",
+                    10.0**-k,
+                    words=words,
+                )
 
 
 def measure_about_y(settings: Settings, unit: Unit) -> Iterator[Number]:
     """Yield the least singular value of B after rotations about Y; at: degrees."""
     for degrees, quat in ABOUT_Y.items():
         words = in_coordinates(ZYX)
-        yield Number("least_of_B", least_of_B(quat), f"y{degrees:+d}", degrees, words=words)
+        yield Number(
+            "least_of_B",
+            least_of_B(quat),
+            f"y{degrees:+d}",
+            degrees,
+            words=words,
+        )
 
 
-def measure_moved_angles(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_moved_angles(
+    settings: Settings, unit: Unit
+) -> Iterator[Number]:
     """Yield the largest change of R at a pole if alpha and gamma change; at: beta in degrees.
 
     case: "sum" where their sum stays the same, "difference" where their difference does.
     """
     to_matrix, words = representation(ZYX).to_matrix, in_coordinates(ZYX)
     grid = np.linspace(-3.0, 3.0, GRID).tolist()
-    for sign, (what, way) in itertools.product((1, -1), (("sum", -1), ("difference", 1))):
+    for sign, (what, way) in itertools.product(
+        (1, -1), (("sum", -1), ("difference", 1))
+    ):
         beta = sign * math.pi / 2
         for i, j in itertools.product(range(GRID), repeat=2):
             before = to_matrix((grid[i], beta, grid[j]))
-            after = to_matrix((grid[i] + SHIFT_RAD, beta, grid[j] + way * SHIFT_RAD))
+            after = to_matrix(
+                (grid[i] + SHIFT_RAD, beta, grid[j] + way * SHIFT_RAD)
+            )
             change = float(np.abs(np.subtract(before, after)).max())
-            yield Number("change_of_R", change, f"{what}-{i}-{j}", 90.0 * sign, words=words)
+            yield Number(
+                "change_of_R",
+                change,
+                f"{what}-{i}-{j}",
+                90.0 * sign,
+                words=words,
+            )
 
 
 def random_orientations(count: int, seed: int) -> list[Rotation]:
@@ -157,31 +206,49 @@ def random_orientations(count: int, seed: int) -> list[Rotation]:
     return [from_quaternion(tuple(quat)) for quat in quats.tolist()]
 
 
-def measure_axes_of_angles(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_axes_of_angles(
+    settings: Settings, unit: Unit
+) -> Iterator[Number]:
     """Yield how far the axis of alpha is from the base's z axis, and that of gamma from the hand's x axis."""
     words = in_coordinates(ZYX)
     for k, R in enumerate(random_orientations(TURNS_OF_ANGLES, SEED)):
         B, case = euler_B(R), f"random-{k:03d}"
-        alpha, gamma = np.abs(B[:, 0] - (0.0, 0.0, 1.0)), np.abs(B[:, 2] - R.n)
+        alpha, gamma = (
+            np.abs(B[:, 0] - (0.0, 0.0, 1.0)),
+            np.abs(B[:, 2] - R.n),
+        )
         yield Number("alpha_gap", float(alpha.max()), case, words=words)
         yield Number("gamma_gap", float(gamma.max()), case, words=words)
 
 
-def polar_orientations(zyx: Coordinates, seed: int) -> list[tuple[str, Rotation]]:
+def polar_orientations(
+    zyx: Coordinates, seed: int
+) -> list[tuple[str, Rotation]]:
     """Return orientations about both poles of Z-Y-X: (exact or near, R), at 10^-1 to 10^-12 rad and exactly."""
     rng, found = np.random.default_rng(seed), []
     for side in (1.0, -1.0):
-        for alpha, gamma in rng.uniform(-math.pi, math.pi, (BESIDE, 2)).tolist():
-            s, c = math.sin(alpha), math.cos(alpha)  # gamma adds to alpha on a pole
-            on_pole = Rotation((0.0, 0.0, -side), (-s, c, 0.0), (side * c, side * s, 0.0))
+        for alpha, gamma in rng.uniform(
+            -math.pi, math.pi, (BESIDE, 2)
+        ).tolist():
+            s, c = (
+                math.sin(alpha),
+                math.cos(alpha),
+            )  # gamma adds to alpha on a pole
+            on_pole = Rotation(
+                (0.0, 0.0, -side), (-s, c, 0.0), (side * c, side * s, 0.0)
+            )
             found.append((AT_POLE, on_pole))
             for k in range(1, POLE_DECADES + 1):
                 beta = side * (math.pi / 2 - 10.0**-k)
-                found.append((NEAR_POLE, zyx.to_matrix((alpha, beta, gamma))))
+                found.append(
+                    (NEAR_POLE, zyx.to_matrix((alpha, beta, gamma)))
+                )
     return found
 
 
-def balance(along: Coordinates, R: Rotation, moment: np.ndarray, rates: np.ndarray) -> dict[str, float]:
+def balance(
+    along: Coordinates, R: Rotation, moment: np.ndarray, rates: np.ndarray
+) -> dict[str, float]:
     """Compute both sides of (3.10) at R for a moment and rates of the coordinates, each of length 1.
 
     Returns:
@@ -195,13 +262,18 @@ def balance(along: Coordinates, R: Rotation, moment: np.ndarray, rates: np.ndarr
     raw = np.full(len(rates), math.nan)
     if along.about:
         raw = np.array([moment[along.about.index(i)] for i in range(3)])
-    ends = [along.to_matrix(tuple((at.E + side * STEP * rates).tolist())) for side in (1, -1)]
+    ends = [
+        along.to_matrix(tuple((at.E + side * STEP * rates).tolist()))
+        for side in (1, -1)
+    ]
     after, before = (np.array(one).T for one in ends)
     omega = Turn.from_matrix(after @ before.T).as_rotvec() / (2 * STEP)
     moments, sizes, _ = np.linalg.svd(B)
     gain = math.inf
     if B.shape == (3, 3) and sizes[-1] > SINGULAR:
-        gain = float(np.linalg.norm(np.linalg.inv(B)[0]) * np.linalg.norm(B[:, 0]))
+        gain = float(
+            np.linalg.norm(np.linalg.inv(B)[0]) * np.linalg.norm(B[:, 0])
+        )
     lost = along.generalized(at, tuple(moments[:, -1].tolist()))
     turned = along.angular_velocity(at, tuple(rates.tolist()))
     return {
@@ -215,12 +287,16 @@ def balance(along: Coordinates, R: Rotation, moment: np.ndarray, rates: np.ndarr
     }
 
 
-def balances(along: Coordinates, places: list[tuple[str, Rotation]], seed: int) -> Iterator[tuple[str, dict]]:
+def balances(
+    along: Coordinates, places: list[tuple[str, Rotation]], seed: int
+) -> Iterator[tuple[str, dict]]:
     """Yield the place, its number, and what `balance` finds there for random directions of moment and rates."""
     rng = np.random.default_rng(seed)
     for k, (place, R) in enumerate(places):
         drawn = rng.normal(size=3), rng.normal(size=len(along.chart(R).E))
-        moment, rates = (vector / np.linalg.norm(vector) for vector in drawn)
+        moment, rates = (
+            vector / np.linalg.norm(vector) for vector in drawn
+        )
         yield f"{place}-{k:04d}", balance(along, R, moment, rates)
 
 
@@ -228,13 +304,22 @@ def measure_work(settings: Settings, unit: Unit) -> Iterator[Number]:
     """Yield what `balance` finds of Z-Y-X angles, and the gap of power of every other representation."""
     anywhere = [(AT_RANDOM, R) for R in random_orientations(TURNS, SEED)]
     zyx = representation(ZYX)
-    for case, found in balances(zyx, anywhere + polar_orientations(zyx, SEED), SEED):
+    for case, found in balances(
+        zyx, anywhere + polar_orientations(zyx, SEED), SEED
+    ):
         for measure, value in found.items():
             yield Number(measure, value, case, words=in_coordinates(ZYX))
     for name, along in contenders("representations").items():
         if name != ZYX:
-            for case, found in balances(along, anywhere[:TURNS_ELSEWHERE], SEED):
-                yield Number("power_gap", found["power_gap"], case, words=in_coordinates(name))
+            for case, found in balances(
+                along, anywhere[:TURNS_ELSEWHERE], SEED
+            ):
+                yield Number(
+                    "power_gap",
+                    found["power_gap"],
+                    case,
+                    words=in_coordinates(name),
+                )
 
 
 def measure_forms(settings: Settings, unit: Unit) -> Iterator[Number]:
@@ -246,24 +331,44 @@ def measure_forms(settings: Settings, unit: Unit) -> Iterator[Number]:
             for k in range(1, FORM_DECADES + 1):
                 R = along.to_matrix((first, at_pole + 10.0**-k, last))
                 words = in_coordinates(form)
-                yield Number("condition", condition_in(form, R), f"pair-{i:02d}", 10.0**-k, words=words)
+                yield Number(
+                    "condition",
+                    condition_in(form, R),
+                    f"pair-{i:02d}",
+                    10.0**-k,
+                    words=words,
+                )
 
 
-def angular_acceleration(E: np.ndarray, rates: np.ndarray, u: np.ndarray) -> np.ndarray:
+def angular_acceleration(
+    E: np.ndarray, rates: np.ndarray, u: np.ndarray
+) -> np.ndarray:
     """Compute Eddot = B^-1 (u - Bdot Edot), which is (2.11), with Bdot by differences along the motion."""
     to_matrix, h = representation(ZYX).to_matrix, LINEAR_STEP
     here, ahead, behind = (
-        euler_B(to_matrix(tuple((E + side * h * rates).tolist()))) for side in (0, 1, -1)
+        euler_B(to_matrix(tuple((E + side * h * rates).tolist())))
+        for side in (0, 1, -1)
     )
     return np.linalg.solve(here, u - (ahead - behind) / (2 * h) @ rates)
 
 
-def measure_linear_terms(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_linear_terms(
+    settings: Settings, unit: Unit
+) -> Iterator[Number]:
     """Yield the derivatives of (2.11) at zero by angles, by rates and by u; case: by what, row and column."""
     h, names = LINEAR_STEP, ("angles", "rates", "input")
-    for (place, name), column in itertools.product(enumerate(names), range(3)):
+    for (place, name), column in itertools.product(
+        enumerate(names), range(3)
+    ):
         step = np.zeros((3, 3))
         step[place, column] = h
-        slope = (angular_acceleration(*step) - angular_acceleration(*-step)) / (2 * h)
+        slope = (
+            angular_acceleration(*step) - angular_acceleration(*-step)
+        ) / (2 * h)
         for row in range(3):
-            yield Number("derivative", float(slope[row]), f"{name}-{row}{column}", words=in_coordinates(ZYX))
+            yield Number(
+                "derivative",
+                float(slope[row]),
+                f"{name}-{row}{column}",
+                words=in_coordinates(ZYX),
+            )

@@ -6,7 +6,12 @@ from typing import NamedTuple
 
 from bench.law.inputs import Gains
 
-NO_LAW = {"regulator": "", "representation": "", "jacobian": "", "inverse": ""}
+NO_LAW = {
+    "regulator": "",
+    "representation": "",
+    "jacobian": "",
+    "inverse": "",
+}
 """Words of a row about no law."""
 
 

@@ -79,7 +79,9 @@ def error_vector(start: Start) -> np.ndarray:
     return -math.copysign(1.0, quat[0]) * quat[1:]
 
 
-def turn_about(axis: tuple[float, ...], angle: float, name: str = "") -> Start:
+def turn_about(
+    axis: tuple[float, ...], angle: float, name: str = ""
+) -> Start:
     """Return a start at rest, turned about an axis of length 1."""
     x, y, z = (math.sin(0.5 * angle) * part for part in axis)
     return Start(name, (math.cos(0.5 * angle), x, y, z))
@@ -88,7 +90,13 @@ def turn_about(axis: tuple[float, ...], angle: float, name: str = "") -> Start:
 def follow(law: Law, starts: list[Start], gains: Gains) -> Motion:
     """Simulate starts of a law in continuous time."""
     settings = Settings(gains=gains, own=(law,))
-    unit = Unit("free-body", law.name, "free-body", engine="ideal-rk4", count=len(starts))
+    unit = Unit(
+        "free-body",
+        law.name,
+        "free-body",
+        engine="ideal-rk4",
+        count=len(starts),
+    )
     curves = blank_curves(len(starts), SAMPLES)
     simulate(settings, unit, starts, SAMPLES * settings.dt_s, curves)
     samples = curves.samples
@@ -104,11 +112,17 @@ def measure_decay(settings: Settings, unit: Unit) -> Iterator[Number]:
     """
     gains, words = settings.gains, find_contender(LAW).words
     surface, _ = rates_of(gains)
-    places = [(angle, axis) for angle in ANGLES_DEG for axis in range(len(AXES))]
+    places = [
+        (angle, axis) for angle in ANGLES_DEG for axis in range(len(AXES))
+    ]
     starts = []
     for angle, axis in places:
-        start = turn_about(AXES[axis], math.radians(angle), f"{angle:g}-axis-{axis}")
-        starts.append(start._replace(omega=tuple(surface * error_vector(start))))
+        start = turn_about(
+            AXES[axis], math.radians(angle), f"{angle:g}-axis-{axis}"
+        )
+        starts.append(
+            start._replace(omega=tuple(surface * error_vector(start)))
+        )
     motion = follow(regulator(LAW), starts, gains)
     expected = motion.T[:, :1] * np.exp(-0.5 * surface * motion.time)
     errors = np.nanmax(np.abs(motion.T / expected - 1.0), axis=1)
@@ -116,9 +130,15 @@ def measure_decay(settings: Settings, unit: Unit) -> Iterator[Number]:
         logarithm = np.log(np.sin(0.5 * motion.angle[k]))
         rate = -np.gradient(logarithm, motion.time[k], edge_order=2)
         name = starts[k].id
-        yield Number("decay_gap", float(errors[k]), name, angle, words=words)
-        yield Number("first_rate_per_s", float(rate[0]), name, angle, words=words)
-        yield Number("last_rate_per_s", float(rate[-1]), name, angle, words=words)
+        yield Number(
+            "decay_gap", float(errors[k]), name, angle, words=words
+        )
+        yield Number(
+            "first_rate_per_s", float(rate[0]), name, angle, words=words
+        )
+        yield Number(
+            "last_rate_per_s", float(rate[-1]), name, angle, words=words
+        )
 
 
 def measure_bound(settings: Settings, unit: Unit) -> Iterator[Number]:
@@ -134,10 +154,16 @@ def measure_bound(settings: Settings, unit: Unit) -> Iterator[Number]:
     surface, _ = rates_of(settings.gains)
     s = []
     for start in starts:
-        s.append(np.linalg.norm(np.array(start.omega) - surface * error_vector(start)))
+        s.append(
+            np.linalg.norm(
+                np.array(start.omega) - surface * error_vector(start)
+            )
+        )
     motion = follow(regulator(LAW), starts, settings.gains)
     growth = 0.5 * np.array(s)[:, None] * motion.time
-    bound = (motion.T[:, :1] + growth) * np.exp(-0.5 * surface * motion.time)
+    bound = (motion.T[:, :1] + growth) * np.exp(
+        -0.5 * surface * motion.time
+    )
     shares = np.nanmax(motion.T / bound, axis=1)
     words = find_contender(LAW).words
     for start, share in zip(starts, shares.tolist(), strict=True):
@@ -156,11 +182,15 @@ def measure_frames(settings: Settings, unit: Unit) -> Iterator[Number]:
         body = follow(IN_BODY_FRAME, starts, settings.gains)
         gaps = np.nanmax(np.abs(base.angle - body.angle), axis=1)
         # The chord |R_1 - R_2| = sqrt(8) sin(angle/2) keeps its digits where the trace loses them.
-        chords = np.nanmax(np.linalg.norm(base.R - body.R, axis=2), axis=1) / math.sqrt(8.0)
+        chords = np.nanmax(
+            np.linalg.norm(base.R - body.R, axis=2), axis=1
+        ) / math.sqrt(8.0)
         apart = 2.0 * np.arcsin(np.minimum(1.0, chords))
         for k, start in enumerate(starts):
             yield Number("angle_gap", float(gaps[k]), start.id, words=words)
-            yield Number("orientation_gap", float(apart[k]), start.id, words=words)
+            yield Number(
+                "orientation_gap", float(apart[k]), start.id, words=words
+            )
 
 
 def measure_noise(settings: Settings, unit: Unit) -> Iterator[Number]:
@@ -172,17 +202,31 @@ def measure_noise(settings: Settings, unit: Unit) -> Iterator[Number]:
         yield from hold(settings, period_s, NOISE_SHARE)
 
 
-def hold(settings: Settings, period_s: float, share: float) -> Iterator[Number]:
+def hold(
+    settings: Settings, period_s: float, share: float
+) -> Iterator[Number]:
     """Simulate exact 180° rotations with a noise of share Kp period^2, without memory and with it."""
     from bench.engines.simulate_bodies import run_disturbed
 
-    starts = [turn_about(axis, math.pi, f"axis-{i}") for i, axis in enumerate(AXES)]
+    starts = [
+        turn_about(axis, math.pi, f"axis-{i}")
+        for i, axis in enumerate(AXES)
+    ]
     limits = Limits(settings.gains, 1e-6, round(1e6 * NOISE_S), 1)
     noise = share * settings.gains.kp * period_s**2
     condition = Condition(worst_attitude_error=noise, period_s=period_s)
     for law in (LAW, WITH_MEMORY):
         contender = find_contender(law)
-        numbers = run_disturbed(contender, starts, condition, limits, metrics_of(on_arm=False))
+        numbers = run_disturbed(
+            contender, starts, condition, limits, metrics_of(on_arm=False)
+        )
         outcomes = judged_columns(numbers, period_s)["outcome"]
         for start, outcome in zip(starts, outcomes, strict=True):
-            yield Number("noise_rad", noise, start.id, period_s, outcome, contender.words)
+            yield Number(
+                "noise_rad",
+                noise,
+                start.id,
+                period_s,
+                outcome,
+                contender.words,
+            )

@@ -26,7 +26,13 @@ LINEARIZED = "linearized-euler/zyx-euler"
 RELATIVE = "linearized-euler-relative/zyx-euler"
 FEEDBACK = "feedback-linearized/zyx-euler"
 
-GAINS = ((100.0, 20.0), (25.0, 10.0), (400.0, 40.0), (100.0, 10.0), (100.0, 40.0))
+GAINS = (
+    (100.0, 20.0),
+    (25.0, 10.0),
+    (400.0, 40.0),
+    (100.0, 10.0),
+    (100.0, 40.0),
+)
 """Critically damped at 10, 5 and 20 rad/s; then damping ratios 1/2 and 2 at 10 rad/s."""
 
 SMALL_RAD = (0.1, 0.01, 0.001)
@@ -52,8 +58,18 @@ OUTSIDE_RAD = 1e-3
 
 PERTURBED_S = 5.0
 PERTURBED = {
-    "wrong-inertia": ("inertia", 100, (MATRIX, FEEDBACK), ("settling_time_s",)),
-    "moving-goal": ("moving-goal", 200, (RELATIVE, MATRIX), ("angle0_rad", "tail_max_rad")),
+    "wrong-inertia": (
+        "inertia",
+        100,
+        (MATRIX, FEEDBACK),
+        ("settling_time_s",),
+    ),
+    "moving-goal": (
+        "moving-goal",
+        200,
+        (RELATIVE, MATRIX),
+        ("angle0_rad", "tail_max_rad"),
+    ),
 }
 """Probe -> perturbation, starts at each level, laws, and the columns of robustness.parquet that are kept."""
 
@@ -65,7 +81,11 @@ def about(axis: Sequence[float] | np.ndarray, angle: float) -> tuple:
 
 
 def episodes(
-    contender: str, starts: list[Start], gains: Gains, dt_s: float, horizon_s: float
+    contender: str,
+    starts: list[Start],
+    gains: Gains,
+    dt_s: float,
+    horizon_s: float,
 ) -> pd.DataFrame:
     """Return rows of episodes.parquet of a few starts on the continuous plant."""
     unit = Unit(
@@ -79,19 +99,36 @@ def episodes(
     return rows_from(Settings(gains=gains, dt_s=dt_s), unit, starts)
 
 
-def numbers_of(rows: pd.DataFrame, at: float, words: dict, measures: Sequence[str]) -> Iterator[Number]:
+def numbers_of(
+    rows: pd.DataFrame, at: float, words: dict, measures: Sequence[str]
+) -> Iterator[Number]:
     """Yield some columns of episodes as numbers."""
     for row in rows.to_dict("records"):
         gains = Gains(row["kp"], row["kv"])
         for measure in measures:
-            yield Number(measure, row[measure], row["start_id"], at, row["outcome"], words, gains)
+            yield Number(
+                measure,
+                row[measure],
+                row["start_id"],
+                at,
+                row["outcome"],
+                words,
+                gains,
+            )
 
 
 def measure_turns(
-    settings: Settings, contender: str, directions: Any, gains: Gains, angle: float
+    settings: Settings,
+    contender: str,
+    directions: Any,
+    gains: Gains,
+    angle: float,
 ) -> Iterator[Number]:
     """Yield the settling time from rest after a rotation about each axis."""
-    starts = [Start(f"axis-{i:02d}", about(axis, angle)) for i, axis in enumerate(directions)]
+    starts = [
+        Start(f"axis-{i:02d}", about(axis, angle))
+        for i, axis in enumerate(directions)
+    ]
     rows = episodes(contender, starts, gains, settings.dt_s, LONG_S)
     words = settings.contender(contender).words
     yield from numbers_of(rows, angle, words, ("settling_time_s",))
@@ -99,30 +136,49 @@ def measure_turns(
 
 def measure_small_turns(settings: Settings, unit: Unit) -> Iterator[Number]:
     """Yield settling times of small turns at several gains; at: the angle [rad]."""
-    for law, directions in ((MATRIX, ABOUT), (LINEARIZED, axes(DIRECTIONS))):
+    for law, directions in (
+        (MATRIX, ABOUT),
+        (LINEARIZED, axes(DIRECTIONS)),
+    ):
         for gains in GAINS:
             for angle in SMALL_RAD:
-                yield from measure_turns(settings, law, directions, Gains(*gains), angle)
+                yield from measure_turns(
+                    settings, law, directions, Gains(*gains), angle
+                )
 
 
-def measure_larger_turns(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_larger_turns(
+    settings: Settings, unit: Unit
+) -> Iterator[Number]:
     """Yield settling times of larger turns at the run's gains; at: the angle [rad]."""
     for angle in LARGER_RAD:
-        yield from measure_turns(settings, LINEARIZED, axes(DIRECTIONS), settings.gains, angle)
+        yield from measure_turns(
+            settings, LINEARIZED, axes(DIRECTIONS), settings.gains, angle
+        )
 
 
 def measure_one_angle(settings: Settings, unit: Unit) -> Iterator[Number]:
     """Yield settling times of turns of one Euler angle alone; at: the angle [rad]."""
     for angle in ALONE_RAD:
-        yield from measure_turns(settings, LINEARIZED, np.eye(3), settings.gains, angle)
+        yield from measure_turns(
+            settings, LINEARIZED, np.eye(3), settings.gains, angle
+        )
 
 
 def measure_near_goals(settings: Settings, unit: Unit) -> Iterator[Number]:
     """Yield settling times from zero rotation to near goals; at: their angle [rad]."""
     starts = []
     for i, axis in enumerate(axes(DIRECTIONS)):
-        starts.append(Start(f"goal-{i:02d}", IDENTITY, goal_wxyz=about(axis, NEAR_GOAL_RAD)))
-    rows = episodes(LINEARIZED, starts, settings.gains, settings.dt_s, SHORT)
+        starts.append(
+            Start(
+                f"goal-{i:02d}",
+                IDENTITY,
+                goal_wxyz=about(axis, NEAR_GOAL_RAD),
+            )
+        )
+    rows = episodes(
+        LINEARIZED, starts, settings.gains, settings.dt_s, SHORT
+    )
     words = settings.contender(LINEARIZED).words
     yield from numbers_of(rows, NEAR_GOAL_RAD, words, ("settling_time_s",))
 
@@ -132,7 +188,10 @@ def starts_beside_pole(margin: float) -> list[Start]:
     zyx = representation("zyx-euler")
     starts = []
     for i, direction in enumerate(axes(BESIDE)):
-        turns = [math.remainder(turn * (i + 0.5), 2 * math.pi) / 2 for turn in (2.4, 3.7)]
+        turns = [
+            math.remainder(turn * (i + 0.5), 2 * math.pi) / 2
+            for turn in (2.4, 3.7)
+        ]
         beta = (-1) ** i * (math.pi / 2 - margin - OUTSIDE_RAD)
         R = zyx.to_matrix((turns[0], beta, turns[1]))
         quat = Turn.from_matrix(np.array(R).T).as_quat(scalar_first=True)
@@ -141,12 +200,16 @@ def starts_beside_pole(margin: float) -> list[Start]:
     return starts
 
 
-def measure_beside_poles(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_beside_poles(
+    settings: Settings, unit: Unit
+) -> Iterator[Number]:
     """Yield the largest commands of spins beside a pole; at: the margin [rad]."""
     words = settings.contender(FEEDBACK).words
     for margin in MARGINS_RAD:
         starts = starts_beside_pole(margin)
-        rows = episodes(FEEDBACK, starts, settings.gains, settings.dt_s, SHORT)
+        rows = episodes(
+            FEEDBACK, starts, settings.gains, settings.dt_s, SHORT
+        )
         yield from numbers_of(rows, margin, words, ("peak_u",))
 
 
@@ -155,7 +218,12 @@ def measure_perturbed(settings: Settings, unit: Unit) -> Iterator[Number]:
     axis, count, laws, measures = PERTURBED[unit.selector]
     for law in laws:
         own = Unit(
-            "robustness", law, selector=axis, count=count, total=count, horizon_s=PERTURBED_S
+            "robustness",
+            law,
+            selector=axis,
+            count=count,
+            total=count,
+            horizon_s=PERTURBED_S,
         )
         rows = rows_of(settings, own)
         words = settings.contender(law).words
@@ -167,4 +235,9 @@ def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loop of the free body and a law of it."""
     from bench.engines.metrics.registry import metrics_of
 
-    prepare_law(settings, Unit("free-body", MATRIX), "ideal-rk4", tuple(metrics_of(on_arm=False)))
+    prepare_law(
+        settings,
+        Unit("free-body", MATRIX),
+        "ideal-rk4",
+        tuple(metrics_of(on_arm=False)),
+    )

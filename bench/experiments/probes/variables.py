@@ -33,13 +33,19 @@ POSSIBLE = 1e-12
 MIDDLE_RAD = 0.8
 """A middle angle at which no form of Euler angles is degenerate."""
 
-FORMS = tuple("".join(axes) for axes in itertools.product("XYZ", repeat=3) if axes[0] != axes[1] != axes[2])
+FORMS = tuple(
+    "".join(axes)
+    for axes in itertools.product("XYZ", repeat=3)
+    if axes[0] != axes[1] != axes[2]
+)
 """The twelve forms of Euler angles, each turn about an axis of the body."""
 
 
 def after(legs: Sequence) -> Turn:
     """Compute the orientation after turns in the base frame, one after the other."""
-    return functools.reduce(lambda at, leg: Turn.from_rotvec(leg) * at, legs, Turn.identity())
+    return functools.reduce(
+        lambda at, leg: Turn.from_rotvec(leg) * at, legs, Turn.identity()
+    )
 
 
 def measure_ways(settings: Settings, unit: Unit) -> Iterator[Number]:
@@ -51,7 +57,9 @@ def measure_ways(settings: Settings, unit: Unit) -> Iterator[Number]:
     rng = np.random.default_rng(settings.seed)
     end, between = Turn.random(WAYS, rng=rng), Turn.random(WAYS, rng=rng)
     by_way = between.as_rotvec() + (end * between.inv()).as_rotvec()
-    for k, apart in enumerate(np.linalg.norm(end.as_rotvec() - by_way, axis=1).tolist()):
+    for k, apart in enumerate(
+        np.linalg.norm(end.as_rotvec() - by_way, axis=1).tolist()
+    ):
         yield Number("way_difference_rad", apart, f"way-{k:03d}")
     x, y = np.eye(3)[:2]
     for a in LOOPS_RAD:
@@ -62,7 +70,9 @@ def measure_ways(settings: Settings, unit: Unit) -> Iterator[Number]:
     angles = rng.uniform(-3, 3, (WAYS, LEGS))
     for k in range(WAYS):
         legs = angles[k][:, None] * axes[k]
-        missed = (Turn.from_rotvec(legs.sum(axis=0)).inv() * after(legs)).magnitude()
+        missed = (
+            Turn.from_rotvec(legs.sum(axis=0)).inv() * after(legs)
+        ).magnitude()
         yield Number("one_axis_gap", float(missed), f"axis-{k:03d}")
 
 
@@ -70,7 +80,11 @@ def divisor(R: np.ndarray, trio: tuple[int, ...]) -> np.ndarray:
     """Compute the determinant of the derivatives of (2.5) by three of n_x, n_y, n_z, o_x, o_y, o_z, over 4."""
     n, o = R[:, :, 0], R[:, :, 1]
     zero = np.zeros_like(n)
-    rows = [np.hstack([2 * n, zero]), np.hstack([zero, 2 * o]), np.hstack([o, n])]
+    rows = [
+        np.hstack([2 * n, zero]),
+        np.hstack([zero, 2 * o]),
+        np.hstack([o, n]),
+    ]
     return np.linalg.det(np.stack(rows, axis=1)[:, :, list(trio)]) / 4
 
 
@@ -86,23 +100,33 @@ def product(R: np.ndarray, trio: tuple[int, ...]) -> np.ndarray:
 def another(R: np.ndarray, trio: tuple[int, ...]) -> np.ndarray:
     """Return rotations with the same three elements left: two of one column reflected about the other column's two."""
     of_n = [i for i in trio if i < 3]
-    column, pair = (0, of_n) if len(of_n) == 2 else (1, [i - 3 for i in trio if i >= 3])
+    column, pair = (
+        (0, of_n)
+        if len(of_n) == 2
+        else (1, [i - 3 for i in trio if i >= 3])
+    )
     other = R.copy()
     kept = R[:, pair, 1 - column]
     along = kept / np.linalg.norm(kept, axis=1)[:, None]
     part = R[:, pair, column]
-    other[:, pair, column] = 2 * (part * along).sum(axis=1)[:, None] * along - part
+    other[:, pair, column] = (
+        2 * (part * along).sum(axis=1)[:, None] * along - part
+    )
     other[:, :, 2] = np.cross(other[:, :, 0], other[:, :, 1])
     return other
 
 
-def measure_eliminations(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_eliminations(
+    settings: Settings, unit: Unit
+) -> Iterator[Number]:
     """Yield of every three elements of n and o what their elimination divides by, and a second matrix without them.
 
     case: the places of the three. largest_divisor: 0 where they cannot be eliminated. divisor_gap: to a product of two
     elements. second_gap: to (2.5). second_difference: the median of the largest element's difference from R.
     """
-    R = Turn.random(MATRICES, rng=np.random.default_rng(settings.seed)).as_matrix()
+    R = Turn.random(
+        MATRICES, rng=np.random.default_rng(settings.seed)
+    ).as_matrix()
     for trio in itertools.combinations(range(6), 3):
         case, by = "".join(map(str, trio)), divisor(R, trio)
         largest = float(np.abs(by).max())
@@ -110,10 +134,14 @@ def measure_eliminations(settings: Settings, unit: Unit) -> Iterator[Number]:
         if largest <= POSSIBLE:
             continue
         second = another(R, trio)
-        both = second[:, :, :2]  # n and o, of which (2.5) says that they are orthonormal
+        both = second[
+            :, :, :2
+        ]  # n and o, of which (2.5) says that they are orthonormal
         left = np.abs(both.swapaxes(1, 2) @ both - np.eye(2)).max()
         apart = np.median(np.abs(second - R).max(axis=(1, 2)))
-        yield Number("divisor_gap", float(np.abs(by - product(R, trio)).max()), case)
+        yield Number(
+            "divisor_gap", float(np.abs(by - product(R, trio)).max()), case
+        )
         yield Number("second_gap", float(left), case)
         yield Number("second_difference", float(apart), case)
 
@@ -137,7 +165,9 @@ def measure_sets(settings: Settings, unit: Unit) -> Iterator[Number]:
     """Yield how far apart matrices of two sets of values are, and of many sets at a degenerate orientation."""
     rng = np.random.default_rng(settings.seed)
     sets = rng.uniform(0.1, 1.4, (MATRICES, 3))
-    flipped = (sets + np.array((np.pi, 0.0, np.pi))) * np.array((1.0, -1.0, 1.0))
+    flipped = (sets + np.array((np.pi, 0.0, np.pi))) * np.array(
+        (1.0, -1.0, 1.0)
+    )
     mirrored = flipped + np.array((0.0, np.pi, 0.0))
     angle, axis = sets[:, :1], sets / np.linalg.norm(sets, axis=1)[:, None]
     shifts = rng.uniform(-3.0, 3.0, (MATRICES, 1))
@@ -145,7 +175,10 @@ def measure_sets(settings: Settings, unit: Unit) -> Iterator[Number]:
     pairs = (
         (by_angles("ZYX", sets), by_angles("ZYX", mirrored)),
         (by_angles("ZYZ", sets), by_angles("ZYZ", flipped)),
-        (by_angles("xyz", sets[:, ::-1]), by_angles("xyz", mirrored[:, ::-1])),
+        (
+            by_angles("xyz", sets[:, ::-1]),
+            by_angles("xyz", mirrored[:, ::-1]),
+        ),
         (by_axis(axis, angle), by_axis(-axis, -angle)),
     )
     many = (
@@ -154,9 +187,17 @@ def measure_sets(settings: Settings, unit: Unit) -> Iterator[Number]:
         by_angles("xyz", np.hstack([shifts, pole, shifts])),
         by_axis(axis, zero),
     )
-    for name, (first, second), degenerate in zip(SETS, pairs, many, strict=True):
-        yield Number("two_sets_gap", float(np.abs(first - second).max()), name)
-        yield Number("many_sets_gap", float(np.abs(degenerate - degenerate[0]).max()), name)
+    for name, (first, second), degenerate in zip(
+        SETS, pairs, many, strict=True
+    ):
+        yield Number(
+            "two_sets_gap", float(np.abs(first - second).max()), name
+        )
+        yield Number(
+            "many_sets_gap",
+            float(np.abs(degenerate - degenerate[0]).max()),
+            name,
+        )
 
 
 def least_of(form: str, angles: tuple[float, float, float]) -> float:
@@ -168,12 +209,23 @@ def least_of(form: str, angles: tuple[float, float, float]) -> float:
     return float(np.linalg.svd(B, compute_uv=False)[-1])
 
 
-def measure_twelve_forms(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_twelve_forms(
+    settings: Settings, unit: Unit
+) -> Iterator[Number]:
     """Yield the least singular value of B of every form; at: the middle angle, where degenerate and elsewhere [rad]."""
-    outer = np.random.default_rng(settings.seed).uniform(-3.0, 3.0, (PAIRS, 2)).tolist()
-    for form, (k, (first, last)) in itertools.product(FORMS, enumerate(outer)):
+    outer = (
+        np.random.default_rng(settings.seed)
+        .uniform(-3.0, 3.0, (PAIRS, 2))
+        .tolist()
+    )
+    for form, (k, (first, last)) in itertools.product(
+        FORMS, enumerate(outer)
+    ):
         degenerate = 0.0 if form[0] == form[2] else np.pi / 2
-        for measure, middle in (("least_degenerate_gap", degenerate), ("least_regular", MIDDLE_RAD)):
+        for measure, middle in (
+            ("least_degenerate_gap", degenerate),
+            ("least_regular", MIDDLE_RAD),
+        ):
             found = least_of(form, (first, middle, last))
             yield Number(measure, found, f"{form}-{k:02d}", middle)
 
@@ -188,8 +240,14 @@ def measure_lines(settings: Settings, unit: Unit) -> Iterator[Number]:
     start, end = (Turn.random(MATRICES, rng=rng) for _ in range(2))
     shortest = (end * start.inv()).magnitude()
     first, last = (one.as_euler("ZYX") for one in (start, end))
-    ways = [Turn.from_euler("ZYX", first + s * (last - first)) for s in np.linspace(0.0, 1.0, STEPS)]
-    steps = [(later * before.inv()).magnitude() for before, later in itertools.pairwise(ways)]
+    ways = [
+        Turn.from_euler("ZYX", first + s * (last - first))
+        for s in np.linspace(0.0, 1.0, STEPS)
+    ]
+    steps = [
+        (later * before.inv()).magnitude()
+        for before, later in itertools.pairwise(ways)
+    ]
     ratios = np.sum(steps, axis=0) / shortest
     tilts = np.abs(np.sin(first[:, 1]))
     uneven = np.sqrt((1 + tilts) / (1 - tilts))
