@@ -47,6 +47,7 @@ class Results:
 
     Attributes:
         others: Runs that stand in the place of results/gains and results/reference; None for those.
+        is_as_stored: Whether nothing stands in another's place.
         chosen: The rows that were asked for, as (table, condition); a claim clears it.
     """
 
@@ -59,6 +60,7 @@ class Results:
         others: Sequence[Results] | None = None,
     ):
         self.folder = folder
+        self.is_as_stored = folder is not None and not (frames or others)
         self.frames = dict(frames or {})
         self.timings_folder, self.maps_folder = timings, maps
         self.others = others
