@@ -6,9 +6,9 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.tables.statistics import quantile_estimate
-from bench.findings.claims import probes
+from bench.findings.claims import places as start_places
 from bench.findings.claims.adequacy import HELD_RAD, NOISE
-from bench.findings.claims.probes import EXACT_RAD
+from bench.findings.claims.places import EXACT_RAD
 from bench.findings.claims.tables import Results, settled, settling_times
 
 HALF_TURN, GIMBAL_LOCK = "exactly 180 deg", "gimbal lock"
@@ -26,7 +26,7 @@ def describe_failures(rows: pd.DataFrame) -> list[str]:
     rows: of one law, from rest, to zero rotation. A place at which every start fails is named first. What fails
     elsewhere is described by the narrowest place that holds all of it.
     """
-    distance = probes.boundary_distance(rows)
+    distance = start_places.boundary_distance(rows)
     places = {
         GIMBAL_LOCK: (distance["pole"] <= EXACT_RAD).to_numpy(),
         HALF_TURN: (distance["half_turn"] <= EXACT_RAD).to_numpy(),
@@ -55,7 +55,7 @@ def _describe_rest(failed: pd.DataFrame, places: dict[str, np.ndarray]) -> str:
             return f"some at {place}"
     alpha = np.degrees(failed["alpha0"].abs().min())
     angle = np.degrees(failed["angle0_rad"].min())
-    to_pole = np.degrees(probes.boundary_distance(failed)["pole"].max())
+    to_pole = np.degrees(start_places.boundary_distance(failed)["pole"].max())
     if angle >= NEAR_DEG:
         return f"from {_down(angle)} deg on"
     if to_pole <= NEAR_POLE_DEG:

@@ -1,8 +1,8 @@
-"""Keep what was found about a run, so that `show` and `claims` compute it once: the claims take ten seconds or more.
+"""Keep what was found about a run, so that `show` computes it once: the law to use takes ten seconds or more.
 
 A file is named by a digest of all that decides: the run, the committed results that runs are compared with, and every
 source. Whatever of it changes, the name is another one, and all is computed again. The files lie in this user's cache
-and not in the run's folder: a folder may come from anywhere, and would bring verdicts of its own.
+and not in the run's folder: a folder may come from anywhere, and would bring findings of its own.
 """
 
 import contextlib

@@ -145,11 +145,11 @@ def measure_wrong_axis(results: Results, tilt_deg: float = TILT_DEG) -> WrongAxi
 
 def count_single_axes(results: Results) -> Share:
     """Count poses at which one angle complies about the same axis of the base; NoEvidence: there is none."""
-    orders = compliance.LIMIT.ONE_AXIS
+    orders = compliance.ONE_AXIS
     rows = side_by_side.beside_base(results, COORDINATES, orders, (PAPERS_FORM,))
-    is_away = (rows["cos_beta"] >= compliance.LIMIT.CLOSE_TO_POLE).to_numpy()
+    is_away = (rows["cos_beta"] >= compliance.CLOSE_TO_POLE).to_numpy()
     C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
-    same = side_by_side.apart(C, base) <= compliance.LIMIT.SAME
+    same = side_by_side.apart(C, base) <= compliance.SAME
     return share(
         pd.Series(
             same[some(is_away.nonzero()[0], f"pose of {PROBE} by {BASE} away from gimbal lock")]

@@ -46,6 +46,7 @@ DRAWN = {
     "robustness": lambda unit: unit.selector == NOISE,
     "arm": lambda unit: _is_judged(unit),
     "jacobians": lambda unit: True,
+    "probes": lambda unit: True,
 }
 """Experiment -> the units of a suite that depend on the seed and that claims look at."""
 

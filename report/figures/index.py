@@ -8,7 +8,7 @@ from typing import Any
 from bench.base.provenance import read_provenance
 from bench.findings.answer import NOT_TESTED, Answer, find_answer
 from bench.findings.claims import tables
-from bench.findings.claims.probes import EXACT_RAD
+from bench.findings.claims.places import EXACT_RAD
 from bench.findings.claims.verdict import NoEvidence, Word
 from bench.findings.conclusions import conclude
 from bench.findings.replication import compare_jacobians, measure_settling, starts_at_rest

@@ -3,6 +3,7 @@
 import re
 import shutil
 import subprocess
+import sys
 import tomllib
 from collections import Counter
 
@@ -181,9 +182,10 @@ def test_counts_of_words_are_told_in_their_order():
 
 @pytest.mark.slow
 def test_run_of_two_starts_a_set_judges_no_claim_about_episodes(tmp_path):
-    for name in ("plan.json", "provenance.json", "costs.parquet"):
+    whole = ("plan.json", "provenance.json", "costs.parquet", "probes.parquet")  # no count narrows the last two
+    for name in whole:
         shutil.copy(REFERENCE / name, tmp_path)
-    for path in set(REFERENCE.glob("*.parquet")) - {REFERENCE / "costs.parquet"}:
+    for path in set(REFERENCE.glob("*.parquet")) - {REFERENCE / name for name in whole}:
         rows, sets = parquet.read_table(path), ("regulator", "representation", "arm", "engine", "start_set")
         by = [name for name in sets if name in rows.column_names] or rows.column_names[0]
         parquet.write_table(
@@ -198,6 +200,49 @@ def test_run_of_two_starts_a_set_judges_no_claim_about_episodes(tmp_path):
     listed, _, rest = said.output.partition("Not judged")
     assert set(re.findall(r"^C\d\d", listed, re.MULTILINE)) == {one.id for one in decided} != set()
     assert set(re.findall(r"\bC\d\d", rest)) == set(lacks) != set()
+
+
+READ = """
+import sys
+from pathlib import Path
+from bench.experiments.tables import read
+from bench.experiments.tables.schema import RESULTS
+from bench.experiments.experiment import known_tables
+
+for name in known_tables():
+    read.table(RESULTS / "reference", name)
+"""
+JUDGED = """
+from bench.findings import claims
+
+for paper in claims.PAPERS:
+    claims.judge_possible(claims.Results(RESULTS / "reference"), paper)
+"""
+SHOWN = """
+print(*(name for name in sys.modules if name.startswith(("bench.engines", "numba", "llvmlite"))))
+"""
+
+
+@pytest.mark.slow
+def test_judging_imports_no_more_of_the_engines_than_reading_the_tables():
+    found = []
+    for code in (READ, READ + JUDGED):
+        asked = [sys.executable, "-c", code + SHOWN]
+        ended = subprocess.run(asked, capture_output=True, text=True, check=True, cwd=ROOT)
+        found.append(set(ended.stdout.split()))
+    assert found[0] == found[1]
+    assert not {"numba", "llvmlite", "bench.engines.loop", "bench.engines.simulate"} & found[1]
+
+
+def test_claims_without_the_probes_are_not_judged_and_the_run_s_lack_is_named(tmp_path):
+    for path in REFERENCE.iterdir():
+        if path.name != "probes.parquet":
+            shutil.copy(path, tmp_path)
+    results = claims.Results(tmp_path)
+    for id in ("C02", "C13", "C44"):
+        with pytest.raises(NoEvidence, match="no row of the probe"):
+            claims.judge(id, results)
+    assert claims.judge("C06", results).word == Word.CORRECTED
 
 
 @pytest.mark.parametrize("other", [{}, {"C03": "holds"}])

@@ -10,12 +10,13 @@ from scipy.spatial.transform import Rotation as Turn
 
 from bench.cli import claims as command
 from bench.cli import run as run_command
-from bench.experiments import sliding_motion
+from bench.experiments.experiment import Settings
+from bench.experiments.probes import sliding as probe
+from bench.experiments.probes.body_frame import IN_BODY_FRAME
+from bench.experiments.probes.commands import command as command_of
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
-from bench.findings.claims.lopez_slotine_2024 import attitude, motions
-from bench.findings.claims.lopez_slotine_2024.body_frame import IN_BODY_FRAME
-from bench.findings.claims.probes import command as command_of
+from bench.findings.claims.lopez_slotine_2024 import attitude
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import LONGEST_MEASURED, Word
 from bench.law.contenders.regulators import sliding
@@ -49,14 +50,14 @@ def sliding_variable(body, omega, rates):
 
 
 def test_turn_about_an_axis_is_the_one_of_scipy():
-    for axis in sliding_motion.AXES:
+    for axis in probe.AXES:
         quat = Turn.from_rotvec(2.0 * np.array(axis)).as_quat(scalar_first=True)
-        assert sliding_motion.turn_about(axis, 2.0).quat_wxyz == pytest.approx(tuple(quat))
+        assert probe.turn_about(axis, 2.0).quat_wxyz == pytest.approx(tuple(quat))
 
 
 @pytest.mark.parametrize("gains", GAINS)
 def test_law_makes_the_sliding_variable_decay_in_the_base_frame(gains):
-    rates = sliding_motion.rates_of(gains)
+    rates = probe.rates_of(gains)
     for body, omega in random_states(1):
         u = command_of("sliding", from_quaternion(tuple(body.as_quat(scalar_first=True))), tuple(omega), gains=gains)
         later = Turn.from_rotvec(STEP_S * omega) * body
@@ -66,7 +67,7 @@ def test_law_makes_the_sliding_variable_decay_in_the_base_frame(gains):
 
 def test_law_in_the_body_frame_makes_its_variable_decay_there():
     gains = Gains()
-    rates = sliding_motion.rates_of(gains)
+    rates = probe.rates_of(gains)
     for body, omega in random_states(2):
         R = from_quaternion(tuple(body.as_quat(scalar_first=True).tolist()))
         u = np.array(IN_BODY_FRAME.law(R, tuple(omega.tolist()), Goal(IDENTITY), gains))
@@ -88,43 +89,54 @@ def test_law_with_memory_has_the_same_command_before_a_half_turn():
 
 def test_rates_multiply_to_the_spring_of_the_law():
     for gains in GAINS:
-        surface, approach = sliding_motion.rates_of(gains)
+        surface, approach = probe.rates_of(gains)
         assert surface * approach == pytest.approx(2.0 * gains.kp)
 
 
+def measured(measure, gains=GAINS[0], seed=0):
+    """Return the numbers of a probe by the name of their measure."""
+    found = {}
+    for one in measure(Settings(gains=gains, seed=seed), None):
+        found.setdefault(one.measure, []).append(one.value)
+    return found
+
+
 def test_tangent_of_a_quarter_angle_decays_at_half_lambda_and_the_chord_does_not():
-    found = sliding_motion.measure_decay(Gains())
-    assert found.largest_error < 1e-6
+    found = measured(probe.measure_decay)
+    assert max(found["decay_gap"]) < 1e-6
     # the chord decays at (lambda/2) cos(theta/2): from 179 degrees at first
-    assert found.first_rate == pytest.approx(10.0 * math.cos(math.radians(89.5)), rel=1e-2)
-    assert found.last_rate == pytest.approx(10.0, rel=1e-3)
+    assert found["first_rate_per_s"][-1] == pytest.approx(10.0 * math.cos(math.radians(89.5)), rel=1e-2)
+    assert found["last_rate_per_s"][-1] == pytest.approx(10.0, rel=1e-3)
 
 
 @pytest.mark.parametrize("gains", GAINS)
 def test_no_start_exceeds_the_bound_which_all_have_at_first(gains):
-    found = sliding_motion.measure_bound(gains, seed=3)
-    assert 1.0 - 1e-9 < found.largest_share < 1.0 + 1e-6
+    shares = measured(probe.measure_bound, gains, seed=3)["share_of_bound"]
+    assert 1.0 - 1e-9 < max(shares) < 1.0 + 1e-6
 
 
 def test_both_frames_have_one_angle_and_from_spinning_starts_two_motions():
-    found = motions.compare_frames(Gains(), seed=3)
-    assert found.angle_gap < attitude.LIMIT.SAME_RAD
-    assert found.apart_at_rest < 1e-9
-    assert found.apart_spinning > math.radians(10.0)
+    found = measured(probe.measure_frames, seed=3)
+    at_rest, spinning = found["orientation_gap"][:100], found["orientation_gap"][100:]
+    assert max(found["angle_gap"]) < attitude.SAME_RAD
+    assert max(at_rest) < 1e-9
+    assert max(spinning) > math.radians(10.0)
 
 
 @pytest.mark.parametrize(("share", "is_held"), [(3.0, True), (0.5, False)])
 def test_noise_holds_the_law_without_memory_alone_if_it_exceeds_the_turn_of_a_period(share, is_held):
-    hold = motions.hold_by_noise(Gains(), (1e-3, 1e-4), share)
-    assert (hold.starts, hold.held_with_memory) == (6, 0)
-    assert hold.held == (6 if is_held else 0)
-    assert hold.least_rad == pytest.approx(share * 100.0 * 1e-8)
+    for period_s in (1e-3, 1e-4):
+        held = {"sliding": 0, "sliding-memory": 0}
+        for one in probe.hold(Settings(), period_s, share):
+            held[one.words["regulator"]] += one.outcome != "settled"
+            assert one.value == pytest.approx(share * 100.0 * period_s**2)
+        assert held == {"sliding": 3 if is_held else 0, "sliding-memory": 0}
 
 
 def test_error_vector_is_the_one_of_scipy():
     for body, _ in random_states(4):
         start = Start("", tuple(body.as_quat(scalar_first=True).tolist()))
-        assert sliding_motion.error_vector(start) == pytest.approx(shorter_vector(body))
+        assert probe.error_vector(start) == pytest.approx(shorter_vector(body))
 
 
 def test_claims_are_ten_and_not_among_those_of_murphy():

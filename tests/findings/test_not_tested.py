@@ -110,7 +110,7 @@ def decide(run):
 
 
 def asked(wrapper, own, *others):
-    own.experiments = {"other_gains": lambda results: list(others)}
+    own.others = others
     return wrapper(decide)(own)
 
 

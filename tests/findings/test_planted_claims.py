@@ -8,7 +8,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 from support.claim_tables import TABLES, contact, reference
-from support.tables import EXPERIMENTS, changed, decided, judged, look_up
+from support.tables import changed, decided, judged, look_up
 
 from bench.base.files import read_json
 from bench.experiments.tables import read
@@ -20,19 +20,11 @@ from bench.findings.conclusions import read_texts, weakest_word
 from bench.studies.verdicts import STORED
 
 DATA = tomllib.loads(Path(__file__).with_name("planted_claims.toml").read_text(encoding="utf-8"))
-FOUND = {
-    "C28": {"ways": {"ends": [1.0], "loops": 1.0, "plane": 1e-15}},
-    "C30": {"heavier": {"slow": [1.05], "lost": 2}},
-    "C33": {"in_contact": {"joints": [6, 7], "flops": 950, "calls": 6}},
-}
-"""What the experiments of three claims find: their parameters, as a table."""
 LATER = ("quaternion-shortest", "hybrid")
 
 
 def tables(id):
-    """Return the tables that a claim is judged on, and those of its experiments."""
-    if id in FOUND:
-        return reference() | {name: pd.DataFrame(columns) for name, columns in FOUND[id].items()}
+    """Return the tables that a claim is judged on."""
     return TABLES[id]()
 
 
@@ -93,12 +85,7 @@ def planted(id, *edits):
     frames = tables(id)
     for one in edits:
         frames = edit(frames, one) if isinstance(one, str) else frames | one(frames)
-    found = {
-        name: value
-        for table in frames.keys() & EXPERIMENTS
-        for name, value in EXPERIMENTS[table](frames[table]).items()
-    }
-    return judged(id, **{name: frame for name, frame in frames.items() if name not in EXPERIMENTS}, experiments=found)
+    return judged(id, **frames)
 
 
 def written(evidence):
@@ -126,7 +113,7 @@ def each_of(case):
         yield list(map(write_out, made))
 
 
-EMPTY = [id for id, made in TABLES.items() if made is reference and id not in ("C13", "C15")]
+EMPTY = [id for id, made in TABLES.items() if made is reference]
 CASES = [(id, *one) for id, cases in DATA["cases"].items() for case in cases for one in each_of(case)]
 CASES += [(id, "refused: .", "empty") for id in EMPTY]
 
@@ -208,7 +195,7 @@ def test_improvement_that_is_not_dramatic_at_other_gains_depends_on_them():
         reference(), "episodes: {} -> settling_time_s = 1.5 * settling_time_s".format(DATA["short"]["feedback_uniform"])
     )
     other = Results(None, {"episodes": slow["episodes"].assign(kv=10.0)})
-    verdict = judged("C31", experiments={"other_gains": lambda results: [other]}, **reference())
+    verdict = judged("C31", others=[other], **reference())
     assert verdict.word == Word.DEPENDS
     assert "At Kp = 100, Kd = 10:" in verdict.correction
     assert "Kd = 10, the verdict is 'does not hold'" in str(verdict.evidence)

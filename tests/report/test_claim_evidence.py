@@ -36,9 +36,9 @@ def test_rows_of_a_claim_are_chosen_by_lines_that_can_be_copied(tmp_path):
 
 def test_commands_name_make_bench_only_where_a_table_of_a_run_decides(tmp_path):
     assert "<code>make bench</code>" in fold(tmp_path, Evidence("It holds.", 3, ("episodes",)))
-    computed = fold(tmp_path, Evidence("It holds.", 3, ("experiment",)))
-    assert "make bench" not in computed
-    assert "<code>bench claims</code>" in computed
+    timed = fold(tmp_path, Evidence("It holds.", 3, ("timings",)))
+    assert "make bench" not in timed
+    assert "<code>bench claims</code>" in timed
 
 
 def test_fold_leads_to_the_figure_that_shows_the_claim(tmp_path):

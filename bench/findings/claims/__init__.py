@@ -3,7 +3,8 @@
 A module holds measurements alone, and says first of which claims; the TOML file of the same name holds their texts.
 The claims of another paper stand in a package here (`PAPERS`): the same rules judge them, and no count of the claims of
 Murphy has them.
-`verdict` has what a claim is, `tables` what judging functions read, `probes` the small experiments that they make.
+`verdict` has what a claim is, and `tables` what judging functions read: rows of a run, and nothing else. What claims
+ask beyond the suites' episodes is measured by the experiment `probes`.
 """
 
 import functools
@@ -17,7 +18,6 @@ from bench.base.errors import NoTable
 from bench.experiments.tables import read as published
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results
 from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, Word, decide, does
-from bench.findings.kept import keep
 
 RULE = (
     f"Like the paper, we simulate in continuous time for all verdicts (engine {MAIN_ENGINE}). We "
@@ -49,27 +49,14 @@ def judge(id: str, results: Results) -> Verdict:
 
 
 def judge_possible(results: Results, paper: str = MURPHY) -> tuple[list[Verdict], dict[str, str]]:
-    """Every claim of a paper that a run decides, and for each other one what it lacks; kept for the next call."""
-    every = all_claims(paper)
-
-    def find() -> dict:
-        """Return both as JSON holds them."""
-        decided, lacks = [], {}
-        for one in every:
-            try:
-                _, word, evidence = decide(one, results)
-                decided.append((one.id, word, *evidence))
-            except (NoEvidence, NoTable) as error:
-                lacks[one.id] = str(error)
-        return {"decided": decided, "lacks": lacks}
-
-    found = keep(results.folder, f"claims-{paper}", find) if results.folder and results.is_as_stored else find()
-    claims = {one.id: one for one in every}
-    decided = [
-        Verdict(claims[id], Word(word), _evidence_of(stored))
-        for id, word, *stored in found["decided"]
-    ]
-    return decided, found["lacks"]
+    """Return the verdict on every claim of a paper that a run decides, and for each other one what the run lacks."""
+    decided, lacks = [], {}
+    for one in all_claims(paper):
+        try:
+            decided.append(decide(one, results))
+        except (NoEvidence, NoTable) as error:
+            lacks[one.id] = str(error)
+    return decided, lacks
 
 
 def judge_each(results: Results, paper: str = MURPHY) -> list[Verdict]:
@@ -82,16 +69,6 @@ def judge_each(results: Results, paper: str = MURPHY) -> list[Verdict]:
             evidence = Evidence(f"This run cannot decide the claim: {lacks[claim.id]}.", 0)
             verdicts[claim.id] = Verdict(claim, Word.UNTESTED, evidence)
     return [verdicts[claim.id] for claim in every]
-
-
-def _evidence_of(stored: list) -> Evidence:
-    """Return an evidence from its values as JSON holds them, where a tuple is a list."""
-    evidence = Evidence(*stored)
-    return evidence._replace(
-        tables=tuple(evidence.tables),
-        numbers=tuple(map(tuple, evidence.numbers)),
-        chosen=tuple((str(table), str(condition)) for table, condition in evidence.chosen),
-    )
 
 
 def told(words: Iterable[Word]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -10,8 +11,8 @@ import numpy as np
 from bench.base.on_first_use import pd
 from bench.experiments.tables.read import FREE_BODY, converged
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
-from bench.findings.claims import probes
-from bench.findings.claims.probes import EXACT_RAD
+from bench.findings.claims import places
+from bench.findings.claims.places import EXACT_RAD
 from bench.findings.claims.standing import (
     ORDERED,
     UNDECIDED,
@@ -24,6 +25,9 @@ from bench.findings.claims.standing import (
 from bench.findings.claims.tables import Results, settled, settling_times, some
 from bench.findings.perturbed import DETOUR
 from bench.findings.start_sets import describe_lacking, least_starts
+from bench.law.attribution import YOURS
+from bench.law.contender import Contender
+from bench.law.contenders.registry import all_contenders
 
 if TYPE_CHECKING:
     from bench.findings.maps import Spun
@@ -125,12 +129,12 @@ def _row(name: str, own: pd.DataFrame, costs: pd.DataFrame, spun: tuple[Spun, ..
 
 def exact(runs: pd.DataFrame) -> pd.Series:
     """Tell whether a start is at 180°, a pole or a wrap to EXACT_RAD, or its goal on a pole."""
-    distance = probes.boundary_distance(runs)
+    distance = places.boundary_distance(runs)
     at_goal = distance["half_turn"].where(runs["angle0_rad"] > 1, np.pi)
     found = (distance["pole"] <= EXACT_RAD) | (distance["wrap"] <= EXACT_RAD) | (at_goal <= EXACT_RAD)
-    goals = runs.drop_duplicates(list(probes.GOAL_QUAT))
-    to_pole = goals[list(probes.GOAL_QUAT)].assign(far=probes.goal_to_pole(goals))
-    far = runs[list(probes.GOAL_QUAT)].merge(to_pole, how="left", on=list(probes.GOAL_QUAT))["far"]
+    goals = runs.drop_duplicates(list(places.GOAL_QUAT))
+    to_pole = goals[list(places.GOAL_QUAT)].assign(far=places.goal_to_pole(goals))
+    far = runs[list(places.GOAL_QUAT)].merge(to_pole, how="left", on=list(places.GOAL_QUAT))["far"]
     return found | (far.to_numpy() <= EXACT_RAD)
 
 
@@ -270,3 +274,19 @@ def _settles_directed_and_spun(law: Adequacy) -> bool | None:
 def _is_cheaper(sign: int, stands: Standing) -> bool | None:
     """Whether a law is the cheaper one of a pair; None where nothing that is known of their cost decides."""
     return None if sign == UNDECIDED and not stands.is_known else sign == ORDERED
+
+
+@functools.cache
+def _known() -> dict[str, Contender]:
+    """Return every contender of this repository by name."""
+    return {contender.name: contender for contender in all_contenders()}
+
+
+def whose(name: str) -> str:
+    """Return whether a contender's law is published, adapted here from others' works, ours, or a user's own."""
+    return _known()[name].attribution if name in _known() else YOURS
+
+
+def is_without_memory(name: str) -> bool:
+    """Tell whether a law of this repository keeps nothing from one control period to the next."""
+    return name in _known() and not _known()[name].regulator.memory

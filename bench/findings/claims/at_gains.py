@@ -32,10 +32,12 @@ HALF_STEP = "half-step"
 
 
 def other_gains(results: Results) -> list[Results]:
-    """Return the runs of results/gains and results/reference; none for tables alone.
+    """Return the runs of results/gains and results/reference; none for tables alone, unless they name some.
 
     They are the same whatever the run is, so that every run gives a claim one word.
     """
+    if results.others is not None:
+        return list(results.others)
     if results.folder is None:
         return []
     folders = [REFERENCE, *(path.parent for path in sorted(GAINS.glob("*/episodes.parquet")))]
@@ -55,7 +57,7 @@ def weakest_at_every_gain(decide: Callable) -> Callable:
 def _at_every_gain(decide: Callable, combine: Callable[[list[Word]], Word]) -> Callable:
     @functools.wraps(decide)
     def judge(results: Results) -> Any:
-        others = results.found_by(other_gains, results)
+        others = other_gains(results)
         if not others:
             return decide(results)
         own = results.gains()

@@ -2,40 +2,44 @@
 
 from __future__ import annotations
 
-import functools
 import math
-from collections.abc import Callable, Iterable
-
-import numpy as np
+from collections.abc import Iterable
 
 import tasks
 from bench.base.on_first_use import pd
+from bench.experiments.probes.arms import BY_EULER, CURVES, INVERSES, ON_MATRIX, TASK
 from bench.experiments.suites import SUITES
 from bench.experiments.tables.read import chosen
 from bench.findings.amounts import count_of, join_words, part_of
-from bench.findings.claims import adequacy, probes, standing
-from bench.findings.claims.adequacy import CALLS, of_stage, tallied
+from bench.findings.claims import adequacy, standing
+from bench.findings.claims.adequacy import of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
 from bench.findings.claims.standing import ORDERED, Operations, by_columns
 from bench.findings.claims.tables import Results, evidence, percent, some
-from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
+from bench.findings.claims.verdict import Evidence, Word, claim, word_of
 from bench.law.control.contact_controller import PAPERS_FORM
-from bench.law.inputs import Gains
 
-LIMIT = read_limits(__file__)
+# rad, at step zero by Richardson. What the extrapolation leaves is of second order: (10/s x 1 ms)^2 = 1e-4, times a
+# motion of up to pi, times a few for the curvature of the angles. A visible bend is a hundredth, as in C09.
+BEND_TIGHT = 1e-3
+BEND_LOOSE = 1e-2
+# m, at step zero: a thousandth of an arm's reach.
+DRIFT_M = 1e-3
+# Departure at half the step over that at the step: a half if it is the integrator's, of first order; one if it is the
+# law's. A second-order part of -0.3 to 0.7 of the first-order one moves it this far from a half.
+HALVING = (0.4, 0.6)
+# Peak torque over that of the geometric Jacobian from the same start: beyond it the Jacobian is to blame.
+HAMMERED = 10.0
+# Share of the flops of the whole tick: up to a tenth more is a few.
+FEW = 0.1
+# Share of operations from which on a law is much simpler.
+MUCH = 0.5
 
 
 LAW, COORDINATES = "feedback-linearized", "zyx-euler"
 
-INVERSES = {6: "solve", 7: "pseudo-inverse"}
-"""The inverse of the claims, by number of joints: what J^-1 means on six, and its least-squares heir on seven."""
-
-BY_EULER, BY_COMMON, ON_MATRIX = (
-    f"{LAW}/{COORDINATES}@analytic",
-    f"{LAW}/{COORDINATES}@geometric",
-    "rotation-matrix@geometric",
-)
-"""(3.7), (2.2) with (2.15), and (2.2) with the law on R; the inverse goes by the number of joints."""
+BY_COMMON = f"{LAW}/{COORDINATES}@geometric"
+"""(2.2) with (2.15); BY_EULER is (3.7) and ON_MATRIX (2.2) with the law on R."""
 
 CONTROLLERS = (
     ("The controller (3.7)", BY_EULER),
@@ -65,29 +69,27 @@ def controller_costs(results: Results, controller: str, joints: int) -> pd.DataF
 def c20(results: Results) -> tuple[Word, Evidence]:
     """Curves at two steps; outcomes at the poles against the law on R; stages and totals."""
     found = some(
-        results.table("episodes", task=probes.TASK, engine="native", variation="ideal-motors"),
+        results.table("episodes", task=TASK, engine="native", variation="ideal-motors"),
         "nominal episode of an arm",
     )
     arms = sorted(set(found["arm"].astype(str)))
-    poses = some(results.table("poses", representation=COORDINATES, pose_set="pole"), "pose at a pole")
-    gains = Gains(float(found["kp"].iloc[0]), float(found["kv"].iloc[0]))
-    bends = [results.found_by(bend, arm, gains, float(found["dt_s"].iloc[0])) for arm in arms]
-    compared_at = {arm: _at_poles(results, found, poses, arm, gains) for arm in arms}
+    bends = [_bend(results, arm) for arm in arms]
+    compared_at = {arm: _at_poles(results, found, arm) for arm in arms}
     clear, common = (
         pd.concat([_pairs(results, found, arm, "clear", one) for arm in arms]) for one in (BY_EULER, BY_COMMON)
     )
     hidden = [_hidden(results, joints) for joints in INVERSES]
     full, shares, limits, drifts, samples = zip(*bends, strict=True)
-    is_first_order = LIMIT.HALVING[0] <= min(shares) and max(shares) <= LIMIT.HALVING[1]
-    is_linear = is_first_order and max(limits) <= LIMIT.BEND_TIGHT and max(drifts) <= LIMIT.DRIFT_M
+    is_first_order = HALVING[0] <= min(shares) and max(shares) <= HALVING[1]
+    is_linear = is_first_order and max(limits) <= BEND_TIGHT and max(drifts) <= DRIFT_M
     fails = all(rows["fails"].any() for rows in compared_at.values()) and not clear["fails"].any()
     hides = all(is_hidden for is_hidden, _ in hidden)
     all_failures, all_poles = (sum(map(count, compared_at.values())) for count in (_count_failures, len))
     at_poles = join_words(
         f"{part_of(_count_failures(rows), len(rows))} pole starts on the arm {arm}" for arm, rows in compared_at.items()
     )
-    return word_of(is_linear and fails and hides, max(limits) <= LIMIT.BEND_LOOSE and (fails or hides)), evidence(
-        f"""We simulated {LIMIT.CURVES * len(arms)} motions on {len(arms)} arms with the full time step and with half of
+    return word_of(is_linear and fails and hides, max(limits) <= BEND_LOOSE and (fails or hides)), evidence(
+        f"""We simulated {CURVES * len(arms)} motions on {len(arms)} arms with the full time step and with half of
         it. Their paths stay away from the poles (start set 'clear'). With the full step, the angles differ from the
         linear response by at most {max(full):.1e} rad. With half the step, this difference is {min(shares):.3f} to
         {max(shares):.3f} times as large. We extrapolated the results to step zero. Then the angles differ from the
@@ -105,19 +107,20 @@ def c20(results: Results) -> tuple[Word, Evidence]:
     )
 
 
-@functools.cache
-def bend(arm: str, gains: Gains, dt_s: float, curves: Callable = probes.curves) -> tuple[float, ...]:
-    """Compare curves at a step and at half of it: how far an arm is from double integrators.
+def _bend(results: Results, arm: str) -> tuple[float, ...]:
+    """Return how far an arm's curves are from double integrators.
 
-    Return the bend at the step [rad], the halved one's share of it, that at step zero [rad], the drift [m], samples.
+    The bend at the step [rad], the halved one's share of it, that at step zero [rad], the drift [m], samples.
     """
-    word = f"{BY_EULER}+{INVERSES[tasks.arm(arm).joints]}"
-    full, half = (curves(word, arm, gains, step, LIMIT.CURVES) for step in (dt_s, dt_s / 2))
-    both = full.merge(half, on=["start_id", "time_s"], suffixes=("", "_half"))
-    limits = [2 * both[f"{name}_half"] - both[name] for name in probes.BENDS]
-    drift = 2 * both["position_error_m_half"] - both["position_error_m"]
-    whole, at_half = map(probes.largest, (full, half))
-    return whole, at_half / whole, float(np.abs(limits).max()), float(np.abs(drift.to_numpy()).max()), len(both)
+    curves = results.probe("arm-curve", arm=arm)
+    whole, at_half = (_worst(curves[name]) for name in ("bend_rad", "bend_at_half_step_rad"))
+    limit, drift = (_worst(curves[name]) for name in ("bend_at_step_zero_rad", "drift_at_step_zero_m"))
+    return whole, at_half / whole, limit, drift, int(curves["samples"].sum())
+
+
+def _worst(numbers: pd.Series) -> float:
+    """Return the largest number; infinite if one is missing."""
+    return float(numbers.fillna(math.inf).max())
 
 
 def _pairs(results: Results, found: pd.DataFrame, arm: str, start_set: str, controller: str = BY_EULER) -> pd.DataFrame:
@@ -135,14 +138,17 @@ def _pairs(results: Results, found: pd.DataFrame, arm: str, start_set: str, cont
 def _against(own: pd.DataFrame, other: pd.DataFrame) -> pd.DataFrame:
     """Both controllers' episodes side by side: whether the first fails where the other settles."""
     both = own.merge(other, on="start_id", suffixes=("", "_other"))
-    hammered = ~(both["peak_tau_nm"] <= LIMIT.HAMMERED * both["peak_tau_nm_other"])
+    hammered = ~(both["peak_tau_nm"] <= HAMMERED * both["peak_tau_nm_other"])
     fails = (both["outcome_other"] == "settled") & ((both["outcome"] != "settled") | hammered)
     return pd.DataFrame({"start_id": both["start_id"].astype(str), "fails": fails})
 
 
-def _at_poles(results: Results, found: pd.DataFrame, poses: pd.DataFrame, arm: str, gains: Gains) -> pd.DataFrame:
-    controllers = [f"{one}+{INVERSES[tasks.arm(arm).joints]}" for one in (BY_EULER, ON_MATRIX)]
-    beside = [results.found_by(probes.beside_poles, one, arm, poses, gains) for one in controllers]
+def _at_poles(results: Results, found: pd.DataFrame, arm: str) -> pd.DataFrame:
+    """Return starts of the set 'pole', and episodes beside poles, by (3.7) and by the law on R."""
+    beside = []
+    for controller in (BY_EULER, ON_MATRIX):
+        rows = results.probe("arm-pole", arm=arm, **words(controller, tasks.arm(arm).joints))
+        beside.append(rows.rename(columns={"case": "start_id"}))
     return pd.concat([_pairs(results, found, arm, "pole"), _against(*beside)], ignore_index=True)
 
 
@@ -232,7 +238,7 @@ def c33(results: Results) -> tuple[Word, Evidence]:
     """Flops and calls of both in contact."""
     price, told, is_more, is_few, by_joints = adequacy.ledger(results).price, [], [], [], []
     for joints in INVERSES:
-        base, euler = (results.found_by(in_contact, f"{one}+{PAPERS_FORM}", joints) for one in (BASE, EULER))
+        base, euler = (_in_contact(results, one, joints) for one in (BASE, EULER))
         dearer = euler.weighed(price) / base.weighed(price) - 1
         weighed = (
             f" If calls are counted as flops, the controller with the Euler Jacobian takes {100 * dearer:.0f} % more "
@@ -240,7 +246,7 @@ def c33(results: Results) -> tuple[Word, Evidence]:
         )
         more = euler.flops / base.flops - 1
         is_more.append(by_columns(base, euler) == ORDERED)
-        is_few.append(more <= LIMIT.FEW)
+        is_few.append(more <= FEW)
         by_joints.append(f"{percent(more)} % more on an arm with {joints} joints")
         told.append(
             f"On an arm with {joints} joints, a control period takes {base.flops:,} flops and "
@@ -257,15 +263,12 @@ def c33(results: Results) -> tuple[Word, Evidence]:
     )
 
 
-@functools.cache
-def in_contact(controller: str, joints: int) -> Operations:
-    """Count a controller's typical tick on an arm of so many joints."""
-    from bench.engines.counting import TOTAL, flops
-    from bench.engines.counting.in_contact import cost_in_contact
-    from bench.law.control.registry import find_controller
-
-    numbers = cost_in_contact(find_controller(controller), joints=joints).typical.of(TOTAL)
-    return Operations(flops(numbers), sum(numbers[name] for name in CALLS))
+def _in_contact(results: Results, controller: str, joints: int) -> Operations:
+    """Return the operations of a controller's typical control period on an arm of so many joints."""
+    counts = results.probe("contact-cost")
+    is_it = (counts["case"] == f"{controller}+{PAPERS_FORM}") & (counts["at"] == joints)
+    row = some(counts[is_it], f"cost of {controller} in contact on {joints} joints").iloc[0]
+    return Operations(int(row["flops"]), int(row["calls"]))
 
 
 @claim("C46")
@@ -279,7 +282,7 @@ def c46(results: Results) -> tuple[Word, Evidence]:
         is_less += [by_columns(total[BY_EULER], total[one]) == ORDERED for one in (BY_COMMON, ON_MATRIX)]
         whole = {one: total[one] for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
         sizes.append(f"{surplus(whole, whole)} % more on an arm with {joints} joints")
-        is_left.append(law[BY_EULER].flops <= LIMIT.MUCH * law[ON_MATRIX].flops)
+        is_left.append(law[BY_EULER].flops <= MUCH * law[ON_MATRIX].flops)
         rows_told += [
             (
                 f"{joints} joints",

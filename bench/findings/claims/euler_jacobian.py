@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import functools
 import itertools
 
 import numpy as np
 
-import tasks
 from bench.base.on_first_use import pd
+from bench.experiments.probes import arms, coordinates
 from bench.experiments.tables.read import FREE_BODY
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.amounts import count_of, join_words, part_of
 from bench.findings.claims import tables
-from bench.findings.claims.degeneracy import condition_in
 from bench.findings.claims.feedback_linearized import LAW
 from bench.findings.claims.tables import (
     MAIN_ENGINE,
@@ -24,11 +22,29 @@ from bench.findings.claims.tables import (
     share,
     some,
 )
-from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
+from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, word_of
 from bench.findings.start_sets import least_starts
-from bench.law.contenders.registry import representation
 
-LIMIT = read_limits(__file__)
+# Decades a decade. cond B = (1 + |sin beta|)/cos beta is 2/d to a relative d^2 at a distance d; the constant between
+# it and J_E, at most cond J, bends the first decade or two. 5 % of a fit over 8 decades is a factor of 2.5 in all.
+SLOPE = 1.0
+SLOPE_TIGHT = 0.05
+# Decades that the slopes are of; beyond them cos(beta) is known to less than 1e-8.
+DECADES = 8
+# Largest element at 10^-12 from the pole: 1/d, less a factor 100 for J's own elements.
+UNBOUNDED = 1e10
+NEAREST = 12
+# Forms whose degenerate orientations are a quarter turn from zero, and one that is degenerate at zero.
+REGULAR = ("zyx-euler", "xyz-euler")
+AT_ZERO = "zyz-euler"
+# Points of a share, and relative difference of a median time, up to which results are the same 'for the most part'.
+SHARES = 0.05
+TIMES = 0.05
+# Starts that no form of angles was asked for.
+SETS = ("uniform", "half-turn")
+ARMS, POSES, OFF = arms.SIX_JOINTS, arms.STATES, arms.OFF
+FORM_DECADES, PAIRS = coordinates.FORM_DECADES, coordinates.PAIRS
+SAME = 1e-5
 
 
 COORDINATES = "zyx-euler"
@@ -63,8 +79,8 @@ def c18(results: Results) -> tuple[Word, Evidence]:
     slopes = ways[["condition_analytic", "largest"]].to_numpy()
     errors = square["det_gap"] * square["margin"] / EPS
     tight = (
-        abs(slopes - LIMIT.SLOPE).max() <= LIMIT.SLOPE_TIGHT * LIMIT.SLOPE
-        and (ways["nearest"] >= LIMIT.UNBOUNDED).all()
+        abs(slopes - SLOPE).max() <= SLOPE_TIGHT * SLOPE
+        and (ways["nearest"] >= UNBOUNDED).all()
     )
     has_own = tight and (errors <= ROUNDINGS).all()
     word = word_of(has_own and rows["largest"].min() <= ROUNDINGS * EPS, has_own)
@@ -76,14 +92,14 @@ def c18(results: Results) -> tuple[Word, Evidence]:
         is at most {ways["condition"].max():.0f}. Each time the distance from the pole becomes ten times smaller, log10
         of the condition number of the Euler Jacobian J_E grows by {slopes[:, 0].min():.3f} to {slopes[:, 0].max():.3f},
         and log10 of the largest element of J_E grows by {slopes[:, 1].min():.3f} to {slopes[:, 1].max():.3f}. (These
-        numbers are slopes by least squares.) At 1e-{LIMIT.NEAREST} rad from the pole, the largest element of J_E is
+        numbers are slopes by least squares.) At 1e-{NEAREST} rad from the pole, the largest element of J_E is
         {ways["nearest"].min():.1e} or more. At {len(square):,} poses, det J_E is equal to -det J / cos(beta), with an
         error of at most {errors.max():.1f} eps / cos(beta). We also used the random poses where the condition number
         of J is at most {WELL_CONDITIONED:g}. At {worse} of these poses, the condition number of J_E is more than ten
         times that of J. At every pose, the largest element of J_E is at least {rows["largest"].min():.2f}. Therefore
         J_E is not a zero matrix at any pose.""",
         len(rows),
-        measured=f"""At 1e-{LIMIT.NEAREST} rad from a pole, elements of the Euler Jacobian J_E reach
+        measured=f"""At 1e-{NEAREST} rad from a pole, elements of the Euler Jacobian J_E reach
         {ways["nearest"].max():.0e}. At {percent_interval(worse)} of the random poses where the Jacobian J is well
         conditioned, the condition number of J_E is more than ten times that of J.""",
     )
@@ -96,12 +112,12 @@ def _families(rows: pd.DataFrame) -> pd.DataFrame:
     found = []
     for (arm, _), way in pole.assign(**ids).dropna(subset="k").groupby(["arm", "family"], observed=True):
         k = way["k"].astype(int)
-        if way["condition"].max() > WELL_CONDITIONED or not {*range(1, LIMIT.DECADES + 1), LIMIT.NEAREST} <= set(k):
+        if way["condition"].max() > WELL_CONDITIONED or not {*range(1, DECADES + 1), NEAREST} <= set(k):
             continue
-        near = way[k <= LIMIT.DECADES]
+        near = way[k <= DECADES]
         decades = -np.log10(near["margin"])
         slopes = {name: np.polyfit(decades, np.log10(near[name]), 1)[0] for name in ("condition_analytic", "largest")}
-        nearest, condition = float(way.loc[k == LIMIT.NEAREST, "largest"].iloc[0]), way["condition"].max()
+        nearest, condition = float(way.loc[k == NEAREST, "largest"].iloc[0]), way["condition"].max()
         found.append({"arm": str(arm), **slopes, "nearest": nearest, "condition": condition})
     return pd.DataFrame(found, columns=["arm", "condition_analytic", "largest", "nearest", "condition"])
 
@@ -135,7 +151,7 @@ def c19(results: Results) -> tuple[Word, Evidence]:
     )
 
 
-NAMED = {form: "-".join(form[:3].upper()) for form in (*LIMIT.REGULAR, LIMIT.AT_ZERO)}
+NAMED = {form: "-".join(form[:3].upper()) for form in (*REGULAR, AT_ZERO)}
 """What forms of Euler angles are called in sentences."""
 
 HEADS = (
@@ -152,36 +168,36 @@ HEADS = (
 @claim("C34")
 def c34(results: Results) -> tuple[Word, Evidence]:
     """Pairs of forms by how their laws settle, and each form's Jacobian at its pole."""
-    forms = (*LIMIT.REGULAR, LIMIT.AT_ZERO)
+    forms = (*REGULAR, AT_ZERO)
     episodes = results.table("episodes", **FREE_BODY, task="free-body", regulator=LAW, engine=MAIN_ENGINE)
     found: dict[str, dict[str, tuple[Share, Estimate]]] = {form: {} for form in forms}
-    for name in LIMIT.SETS:
+    for name in SETS:
         rows = [episodes[(episodes["representation"] == form) & (episodes["start_set"] == name)] for form in forms]
         for form, own in zip(forms, rows, strict=True):
             some(own, f"episode of {LAW}/{form} from {name}")
             results.check_starts(own, f"{LAW}/{form}", least_starts(MAIN_ENGINE, "beyond"), name)
         for form, own in zip(forms, tables.same_starts(rows), strict=True):
             found[form][name] = share(tables.settled(own)), quantile_estimate(tables.settling_times(own), 0.5)
-    degenerate = {form: _degenerates(form) for form in forms}
+    conditions = results.probe("forms")
+    degenerate = {form: _degenerates(conditions[conditions["representation"] == form]) for form in forms}
     alike = {
         (one, two): degenerate[one][0]
         and degenerate[two][0]
-        and all(_alike(found[one][name], found[two][name]) for name in LIMIT.SETS)
+        and all(_alike(found[one][name], found[two][name]) for name in SETS)
         for one, two in itertools.combinations(forms, 2)
     }
     rows = [(NAMED[form], *_numbers(found[form]), degenerate[form][1]) for form in forms]
-    near_180 = {form: own[LIMIT.SETS[-1]][0] for form, own in found.items()}
+    near_180 = {form: own[SETS[-1]][0] for form, own in found.items()}
     lost_by_form = join_words([
         f"{kept.n - kept.k} never settle with {NAMED[form]} angles" for form, kept in near_180.items()
     ])
     starts = max(kept.n for kept in near_180.values())
-    return word_of(all(alike.values()), alike[LIMIT.REGULAR] and not all(alike.values())), evidence(
+    return word_of(all(alike.values()), alike[REGULAR] and not all(alike.values())), evidence(
         f"""We compared feedback linearization in {len(forms)} forms of Euler angles. For each form, we counted the
         starts that never settle, and computed the median settling time. We also computed how the condition number of B
         grows towards the pole of the form. These forms give the same results:
         {"; ".join(" and ".join(NAMED[form] for form in pair) for pair, facts in alike.items() if facts) or "none"}.""",
-        sum(kept.n for own in found.values() for kept, _ in own.values())
-        + len(forms) * LIMIT.PAIRS * LIMIT.FORM_DECADES,
+        sum(kept.n for own in found.values() for kept, _ in own.values()) + len(conditions),
         measured=f"We simulated feedback linearization. Of {starts} starts near 180°, {lost_by_form}.",
         numbers=(HEADS, *rows),
     )
@@ -191,18 +207,16 @@ def _alike(one: tuple[Share, Estimate], two: tuple[Share, Estimate]) -> bool:
     """Whether shares and medians are the same for the most part."""
     (kept, time), (other_kept, other_time) = one, two
     meet = time.low <= other_time.high and other_time.low <= time.high
-    same = meet or abs(time.value / other_time.value - 1) <= LIMIT.TIMES
-    return abs(kept.value - other_kept.value) <= LIMIT.SHARES and same
+    same = meet or abs(time.value / other_time.value - 1) <= TIMES
+    return abs(kept.value - other_kept.value) <= SHARES and same
 
 
-def _degenerates(form: str) -> tuple[bool, str]:
-    """Whether a form's B has C18's slope at its pole, and what it is."""
-    along, at_pole = representation(form), 0.0 if form == LIMIT.AT_ZERO else np.pi / 2
-    outer = np.random.default_rng(0).uniform(-3.0, 3.0, (LIMIT.PAIRS, 2)).tolist()
-    near = [at_pole + 10.0**-k for k in range(1, LIMIT.FORM_DECADES + 1)]
-    logs = [[np.log10(condition_in(form, along.to_matrix((one, x, two)))) for x in near] for one, two in outer]
-    slopes = np.diff(logs, axis=1)
-    tight = np.abs(slopes - LIMIT.SLOPE).max() <= LIMIT.SLOPE_TIGHT * LIMIT.SLOPE
+def _degenerates(rows: pd.DataFrame) -> tuple[bool, str]:
+    """Whether a form's B has C18's slope towards its pole, and what it is; rows: of the probe `forms`."""
+    conditions = some(rows, "condition number of a form").pivot(index="case", columns="at", values="condition")
+    towards_pole = conditions.sort_index(axis=1, ascending=False)
+    slopes = np.diff(np.log10(towards_pole.to_numpy()), axis=1)
+    tight = np.abs(slopes - SLOPE).max() <= SLOPE_TIGHT * SLOPE
     least, most = f"{slopes.min():.3f}", f"{slopes.max():.3f}"
     return bool(tight), f"n = {least}" if least == most else f"n = {least} to {most}"
 
@@ -219,52 +233,20 @@ def _numbers(found: dict[str, tuple[Share, Estimate]]) -> list[str]:
 @claim("C44")
 def c44(results: Results) -> tuple[Word, Evidence]:
     """Accelerations of the hand under (2.2), with the arm's own model and with a wrong one."""
-    arms = [name for name in LIMIT.ARMS if tasks.arm(name).joints == 6]
-    right, wrong = (
-        [results.found_by(accelerations, arm, one, results.seed) for arm in arms] for one in ("", LIMIT.OFF)
-    )
-    exact, off = (max(float(gaps.max()) for gaps in found) for found in (right, wrong))
-    typical = float(np.median(np.concatenate(wrong)))
-    return word_of(exact <= LIMIT.SAME < off, False), evidence(
-        f"""We tested {LIMIT.POSES} random states of each arm ({", ".join(arms)}). Equation (2.2) gives the torques, and
+    rows = results.probe("arm-acceleration")
+    is_right = rows["at"] == 1.0
+    names = list(dict.fromkeys(rows["arm"].astype(str)))
+    wrong = rows.loc[~is_right, "acceleration_gap"]
+    exact = float(rows.loc[is_right, "acceleration_gap"].max())
+    off = min(float(gaps.max()) for _, gaps in wrong.groupby(rows["arm"], observed=True))
+    typical = float(wrong.median())
+    return word_of(exact <= SAME < off, False), evidence(
+        f"""We tested {POSES} random states of each arm ({", ".join(names)}). Equation (2.2) gives the torques, and
         MuJoCo gives the accelerations of the joints under these torques. From them, we computed the acceleration of the
         hand. It differs from the input u by at most {exact:.0e} |u|. If all masses of the arm are
-        {LIMIT.OFF.partition("-")[2]} times those of the model, the median difference is {typical:.2g} |u|.""",
-        2 * LIMIT.POSES * len(arms),
-        measured=f"""In {LIMIT.POSES * len(arms)} states, the acceleration of the hand differs from the
-        input u by at most {exact:.0e} |u|. If all masses of the arm are {LIMIT.OFF.partition("-")[2]} times
+        {OFF.partition("-")[2]} times those of the model, the median difference is {typical:.2g} |u|.""",
+        len(rows),
+        measured=f"""In {int(is_right.sum())} states, the acceleration of the hand differs from the
+        input u by at most {exact:.0e} |u|. If all masses of the arm are {OFF.partition("-")[2]} times
         those of the model, the median difference is {typical:.2g} |u|.""",
     )
-
-
-@functools.cache
-def accelerations(name: str, variation: str, seed: int) -> np.ndarray:
-    """Compute |xddot - u| / |u| of an arm under (2.2) at random states; a variation makes the plant another one."""
-    import mujoco
-
-    from tasks.arm_model import model_xml
-    from tasks.kinematics import Kinematics
-
-    arm = tasks.arm(name)
-    judge, plant = Kinematics(arm), mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3))
-    if variation:
-        tasks.variation(variation).apply(plant, arm.rated)
-    model, jacobian = judge.model, judge.jacobian
-    data, body = mujoco.MjData(model), mujoco.MjData(plant)
-    rng, gaps = np.random.default_rng(seed), []
-    for _ in range(LIMIT.POSES):
-        q = np.array(arm.home) + rng.uniform(-LIMIT.AROUND_RAD, LIMIT.AROUND_RAD, model.nv)
-        qdot, u = rng.uniform(-1.0, 1.0, model.nv), rng.uniform(-1.0, 1.0, 6)
-        J = jacobian(q)
-        Jdot = (jacobian(q + LIMIT.STEP_S * qdot) - jacobian(q - LIMIT.STEP_S * qdot)) / (2 * LIMIT.STEP_S)
-        data.qpos[:], data.qvel[:] = q, qdot
-        mujoco.mj_forward(model, data)
-        fg = data.qfrc_bias - data.qfrc_passive
-        body.qpos[:], body.qvel[:] = q, qdot
-        body.qfrc_applied[:] = judge.inertia_matrix(q) @ np.linalg.solve(J, u - Jdot @ qdot) + fg
-        mujoco.mj_forward(plant, body)
-        ends = []
-        for t in (-LIMIT.STEP_S, LIMIT.STEP_S):  # J(q) qdot along the motion that follows, to second order in t
-            ends.append(jacobian(q + t * qdot + t * t / 2 * body.qacc) @ (qdot + t * body.qacc))
-        gaps.append(np.linalg.norm((ends[1] - ends[0]) / (2 * LIMIT.STEP_S) - u) / np.linalg.norm(u))
-    return np.array(gaps)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import itertools
 from collections import Counter
 from collections.abc import Sequence
@@ -11,21 +10,31 @@ from typing import Any
 import numpy as np
 
 from bench.base.on_first_use import pd
+from bench.experiments.probes.turns import SPEED
 from bench.experiments.tables.statistics import bootstrap, quantile, quantile_estimate
 from bench.findings.amounts import capitalize, count_of, join_words, part_of
-from bench.findings.claims import adequacy, probes, tables
-from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy
+from bench.findings.claims import adequacy, tables
+from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy, is_without_memory, whose
 from bench.findings.claims.at_gains import at_every_gain, on_every_engine
 from bench.findings.claims.standing import ORDERED, Ledger
 from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, percent, settled, share, some
-from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
+from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, word_of
 from bench.findings.theory import closed_form
-from bench.law.attribution import ADAPTED, OURS, PUBLISHED, YOURS
-from bench.law.contender import Contender
-from bench.law.contenders.registry import all_contenders
+from bench.law.attribution import ADAPTED, OURS, PUBLISHED
 
-LIMIT = read_limits(__file__)
+LITERAL = "feedback-linearized-literal/zyx-euler"
+# The quantile that stands for 'the range', and the factor in time from which an improvement is dramatic.
+NEARLY_ALL = 0.99
+DRAMATIC = 2.0
+# Share that settles, and the factor over the time of a small error, in the median: from there on it is reasonable.
+REASONABLE = 0.99
+PACE = 2.0
+# Tests of C27 that are of performance: shares that settle, times, and starts on a boundary itself.
+TESTS = "abce"
 
+
+BESIDE_RAD = 0.1
+"""Margin of the probe `beside-pole` outside which bodies spin."""
 
 NAMES = [name.partition("/")[0] for name in THREE]
 IN_WORDS = ["the rotation-matrix law", "the linearized law", "feedback linearization"]
@@ -57,7 +66,7 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     ]
     others = [", ".join(order) for order in orders if order != in_words]
     by_flops = "; ".join(others) or "the same"
-    literal = known.accountings[0].get(LIMIT.LITERAL)  # the law that is compared shares sines and folds Bdot
+    literal = known.accountings[0].get(LITERAL)  # the law that is compared shares sines and folds Bdot
     as_printed = ""
     if literal:
         as_printed = (
@@ -131,10 +140,11 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
     within = "fewer than 99 % of uniform starts settle"
     if np.isfinite(three[0].pace.value):
         within = f"99 % of uniform starts settle within {tables.named_interval(three[0].pace, '.2f', ' s')}"
-    beside = probes.beside_pole(0.1, THREE[-1], results.gains(), results.dt_s)
+    spins = results.probe("beside-pole")
+    beside = some(spins[spins["at"] == BESIDE_RAD], "spin beside a pole")
     return word, evidence(
         f"""{fine} adequate in both cost and performance. The settling time of a small error is {linear:.3f} s. Starts
-        that spin at {probes.SPEED:g} rad/s near a pole do not count for the verdict. Feedback linearization settles
+        that spin at {SPEED:g} rad/s near a pole do not count for the verdict. Feedback linearization settles
         from {count_of(int(settled(beside).sum()), len(beside), "starts of this kind")}.""",
         len(THREE) + sum(law.rows for law in three),
         ("episodes", "costs", "timings") if known.times else ("episodes", "costs"),
@@ -260,22 +270,6 @@ def _answer(law: Adequacy, tested: adequacy.Tested, known: Ledger) -> tuple[str,
     )
 
 
-@functools.cache
-def _known() -> dict[str, Contender]:
-    """Return every contender of this repository by name."""
-    return {contender.name: contender for contender in all_contenders()}
-
-
-def whose(name: str) -> str:
-    """Return whether a contender's law is published, adapted here from others' works, ours, or a user's own."""
-    return _known()[name].attribution if name in _known() else YOURS
-
-
-def is_without_memory(name: str) -> bool:
-    """Tell whether a law of this repository keeps nothing from one control period to the next."""
-    return name in _known() and not _known()[name].regulator.memory
-
-
 def _of_the_three(results: Results) -> list[pd.DataFrame]:
     """Uniform starts from rest of each law, the same in the same order; one that does not converge settles nowhere."""
     found = [results.episodes(name, MAIN_ENGINE, "uniform") for name in NAMES]
@@ -290,7 +284,7 @@ def c31(results: Results) -> tuple[Word, Evidence]:
     laws = _of_the_three(results)
     matrix, linearized, mine = ranges = [share(settled(one)) for one in laws]
     ratios = [_gain(tables.settling_times(laws[-1]), tables.settling_times(one)) for one in laws[:-1]]
-    is_better = all(ratio.low >= LIMIT.DRAMATIC for ratio in ratios) and mine.low > linearized.high
+    is_better = all(ratio.low >= DRAMATIC for ratio in ratios) and mine.low > linearized.high
     longer = [tables.interval_or_never(ratio, ".2f") for ratio in ratios]
     by_matrix = tables.named_interval(ratios[0], ".2f")
     settles = [tables.brief_interval(one) for one in ranges]
@@ -299,7 +293,7 @@ def c31(results: Results) -> tuple[Word, Evidence]:
         {percent(linearized.value)} % with the linearized law, and {percent(mine.value)} % with feedback
         linearization.""",
         3 * len(laws[-1]),
-        instead=f"""The time until {100 * LIMIT.NEARLY_ALL:.0f} % of the starts settle is {by_matrix} times as long
+        instead=f"""The time until {100 * NEARLY_ALL:.0f} % of the starts settle is {by_matrix} times as long
         with the rotation-matrix law as with feedback linearization. The rotation-matrix law settles from
         {count_of(matrix.k, matrix.n, "starts")}.""",
         measured=f"""The time until 99 % of the starts settle is {by_matrix} times as long with the rotation-matrix
@@ -326,7 +320,7 @@ def _gain(own: np.ndarray, other: np.ndarray) -> Any:
     """Return the other's time in which nearly all settle over its own; resampled by starts."""
 
     def ratio(drawn: np.ndarray, axis: Sequence[float] | np.ndarray) -> Any:
-        quantiles = quantile(drawn, LIMIT.NEARLY_ALL, axis=-2)
+        quantiles = quantile(drawn, NEARLY_ALL, axis=-2)
         with np.errstate(invalid="ignore"):
             ratios = quantiles[..., 1] / quantiles[..., 0]
         return np.where(np.isnan(ratios), 1.0, ratios)  # neither settles
@@ -343,7 +337,7 @@ def c35(results: Results) -> tuple[Word, Evidence]:
         for law, rows in zip(IN_WORDS, laws, strict=True)
     ]
     matrix, linearized, feedback = (one for _, one, _ in found)
-    reasonable = [law for law, one, time in found if one.low >= LIMIT.REASONABLE and time.high <= LIMIT.PACE * small]
+    reasonable = [law for law, one, time in found if one.low >= REASONABLE and time.high <= PACE * small]
     told = " ".join(
         f"With {law}, {one} of the starts settle. The median settling time is "
         f"{tables.interval_or_never(time, '.3f', ' s')}."
@@ -364,7 +358,7 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     """Return which tests of performance each of the three lacks, exact boundary points included."""
     small, known = closed_form.linear_settling(*results.gains()), adequacy.of_three(results)
     three = some([one for one in adequacy.every(results, MAIN_ENGINE) if one.name in THREE], "law of the paper")
-    tested = {law.name: adequacy.examine(law, known, small, {}).among(LIMIT.TESTS) for law in three}
+    tested = {law.name: adequacy.examine(law, known, small, {}).among(TESTS) for law in three}
     in_words = dict(zip(THREE, IN_WORDS, strict=True))
     told = " ".join(
         f"{capitalize(in_words[one.name])} {tested[one.name].in_words().replace('fails ', 'fails these tests: ')}. "

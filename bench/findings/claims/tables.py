@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable, Mapping, Sequence, Sized
+from collections.abc import Mapping, Sequence, Sized
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from bench.base.errors import BadResults
-from bench.base.files import read_json
 from bench.base.on_first_use import pd
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
@@ -38,11 +35,20 @@ TIMED = (
 )
 
 
+CASE = (
+    *("regulator", "representation", "jacobian", "inverse", "arm"),
+    *("case", "kp", "kv", "at", "outcome"),
+)
+"""Columns of probes.parquet that its measures of one case share."""
+
+
 class Results:
     """The tables of one run, read when first asked for; `frames` puts others in their place.
 
-    experiments: in place of the experiments that claims make themselves, by the function's name. is_as_stored: whether
-    nothing stands in another's place. chosen: the rows that were asked for, as (table, condition); a claim clears it.
+    Attributes:
+        others: Runs that stand in the place of results/gains and results/reference; None for those.
+        is_as_stored: Whether nothing stands in another's place.
+        chosen: The rows that were asked for, as (table, condition); a claim clears it.
     """
 
     def __init__(
@@ -51,24 +57,24 @@ class Results:
         frames: dict | None = None,
         timings: Path = RESULTS / "timings",
         maps: Path = RESULTS / "maps",
-        experiments: dict[str, Callable] | None = None,
+        others: Sequence[Results] | None = None,
     ):
         self.folder = folder
-        self.is_as_stored = folder is not None and not (frames or experiments)
+        self.is_as_stored = folder is not None and not (frames or others)
         self.frames = dict(frames or {})
         self.timings_folder, self.maps_folder = timings, maps
-        self.experiments = experiments or {}
+        self.others = others
         self.chosen: list[tuple[str, str]] = []
         self._chosen: dict[tuple, pd.DataFrame] = {}
         self._spun: dict[tuple[str, str], list[Spun]] = {}
 
-    def found_by(self, experiment: Callable, *given: Any) -> Any:
-        """Return what an experiment finds, or what stands in its place."""
-        return self.experiments.get(experiment.__name__, experiment)(*given)
-
     def table(self, name: str, **words: str) -> pd.DataFrame:
         """Rows of one table that have these words, chosen once and shared; there may be none."""
         return self._note(name, query_of(words), self._choose(name, words))
+
+    def probe(self, name: str, **words: str) -> pd.DataFrame:
+        """Return what a probe measured, a row a case and a column a measure; NoEvidence: the run does not have it."""
+        return widen(some(self.table("probes", probe=name, **words), f"row of the probe '{name}'"))
 
     def _note(self, name: str, condition: str, rows: pd.DataFrame) -> pd.DataFrame:
         """Keep the condition of rows that were asked for, if there are any, and return the rows."""
@@ -112,10 +118,18 @@ class Results:
         if lacking:
             raise NoEvidence(f"{what} ran from fewer starts than the claim needs ({lacking}): {WHOLE}")
 
+    def _any_episode(self) -> pd.Series:
+        rows = self.table("episodes", **read.FREE_BODY, engine=MAIN_ENGINE)
+        return some(rows, f"episode by {MAIN_ENGINE}").iloc[0]
+
     def gains(self) -> Gains:
         """Return the run's gains."""
-        row = some(self.table("episodes", **read.FREE_BODY, engine=MAIN_ENGINE), f"episode by {MAIN_ENGINE}").iloc[0]
+        row = self._any_episode()
         return Gains(float(row["kp"]), float(row["kv"]))
+
+    def period(self) -> float:
+        """Return the run's control period [s]."""
+        return float(self._any_episode()["dt_s"])
 
     def spun(self, law: str, engine: str = MAIN_ENGINE) -> list[Spun]:
         """Return starts of a law at stated speeds, with the run's gains, from the maps in the repository.
@@ -130,24 +144,6 @@ class Results:
                 self.frames["counted"] = count_in(self.maps_folder) if given is None else counted(given)
             self._spun[law, engine] = spun(self.frames["counted"], law, self.gains(), engine)
         return self._spun[law, engine]
-
-    @functools.cached_property
-    def _plan(self) -> dict:
-        path = self.folder and self.folder / "plan.json"
-        plan = read_json(path) if path and path.is_file() else {"seed": 0, "dt_s": 1e-3}
-        if type(plan.get("seed")) is not int or type(plan.get("dt_s")) not in (int, float):
-            raise BadResults(f"{path}: its seed or control period is no number; delete the folder and run again")
-        return plan
-
-    @property
-    def seed(self) -> int:
-        """The run's, for experiments that claims make; 0 of tables alone."""
-        return int(self._plan["seed"])
-
-    @property
-    def dt_s(self) -> float:
-        """The run's control period; 1 ms of tables alone."""
-        return float(self._plan["dt_s"])
 
     def timings(self) -> pd.DataFrame:
         """Time per tick of laws alone, on every machine that was timed, a column `machine` added; maybe empty."""
@@ -181,6 +177,20 @@ def some(frame: Rows, what: str) -> Rows:
     if len(frame) == 0:
         raise NoEvidence(f"no {what}: {WHOLE}")
     return frame
+
+
+def widen(rows: pd.DataFrame) -> pd.DataFrame:
+    """Return rows of probes.parquet with a column for each measure, a row a case, in the order of the rows."""
+    number = rows.groupby(list(CASE), sort=False, observed=True).ngroup().to_numpy()
+    measures, values = rows["measure"].astype(str).to_numpy(), rows["value"].to_numpy(float)
+    found = rows.loc[~pd.Series(number, index=rows.index).duplicated(), list(CASE)]
+    found = found.reset_index(drop=True)
+    for measure in dict.fromkeys(measures):
+        is_it = measures == measure
+        column = np.full(len(found), np.nan)
+        column[number[is_it]] = values[is_it]
+        found[measure] = column
+    return found
 
 
 def query_of(words: Mapping[str, str | Sequence[str]]) -> str:

@@ -1,8 +1,7 @@
 """What a claim is, what can be said of it, and on what evidence.
 
-A module of claims holds the measurements alone. The texts of its claims and the limits that they set stand in the TOML
-file of the same name beside it, with names of limits and of the module in braces; criteria that stood before are in
-history.toml.
+A module of claims holds the limits and what is made of the rows. The texts of its claims stand in the TOML file of the
+same name beside it, with names of the module in braces; criteria that stood before are in history.toml.
 """
 
 import functools
@@ -13,7 +12,7 @@ import tomllib
 from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
+from types import ModuleType
 from typing import Any, NamedTuple
 
 from bench.base.errors import BenchError
@@ -79,7 +78,7 @@ class Evidence(NamedTuple):
     """Why the word is what it is.
 
     sentence: plain prose, every number in it computed. rows: table rows, states and episodes looked at. tables: where
-    they come from, if not those that the claim's texts name; "experiment" for what the claim computes itself.
+    they come from, if not those that the claim's texts name.
     instead: what is true, written from the rows; empty where the claim's own text says it.
     measured: the number that decides, with its unit, and its 95 % interval where it is of a sample: whole sentences.
     numbers: a table of all numbers, heads first, where prose would be a log. chosen: the rows that were read of each
@@ -165,7 +164,7 @@ def claim(id: str) -> Callable[[Callable], Claim]:
 
     def with_texts(judge: Callable) -> Claim:
         its = inspect.unwrap(judge).__globals__
-        names = Names(its | vars(read_limits(its["__file__"])))
+        names = Names(its)
 
         def text(template: str) -> str:
             return " ".join(template.format_map(names).split())
@@ -189,16 +188,6 @@ def claim(id: str) -> Callable[[Callable], Claim]:
         return Claim(id, judge=judged, readings=readings, earlier=earlier, **written)
 
     return with_texts
-
-
-def read_limits(file: str) -> SimpleNamespace:
-    """Return the limits that the TOML file beside a module sets, by name; its comments say where they come from."""
-    limits = read_texts(Path(file).with_suffix(".toml")).get("limits", {})
-    return SimpleNamespace(**{name: _freeze(value) for name, value in limits.items()})
-
-
-def _freeze(value: Any) -> Any:
-    return tuple(map(_freeze, value)) if isinstance(value, list) else value
 
 
 class Names(dict[str, Any]):

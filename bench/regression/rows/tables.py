@@ -26,6 +26,7 @@ PERTURBED_RELATIVE = 1e-4  # noise or a moving goal has driven what settles for 
 ON_SET, THROWN = 1e-6, 1.0
 """A goal whose margin is smaller is meant to be on the singular set of its coordinates. Above a torque of THROWN times
 its rated one a hand has been thrown about. In both cases rounding decides the outcome."""
+HALF_TICK_S = 5e-4  # of the 1 ms that probes are compared at
 CONTACT = (1e-4, 1e-7)
 """Relative and absolute. Impacts multiply rounding: 1e-16 in a joint angle becomes 4e-7 in a jammed peg's force."""
 PEG, CREEP = (1e-3, 1e-5), (1e-2, 1e-4)
@@ -135,6 +136,23 @@ def compare_command_field(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
     return Rule(within(POSE_RELATIVE), is_bounded, {}, tuple(name for name in old.columns if name not in kept))
 
 
+def compare_probes(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
+    """Compare outcomes and numbers of probes where rounding does not decide them, and of what settled in both.
+
+    A spin or an arm beside a pole ends as rounding decides. A gap is rounding itself, a search takes as many steps as
+    rounding wills, and a gain of up to 1e12 has lost the digits of cos(beta).
+    """
+    probe, measure = (old[name].astype(str) for name in ("probe", "measure"))
+    is_decided = ~probe.isin(("beside-pole", "arm-pole")).to_numpy()
+    is_rounding = measure.str.endswith("_gap") | measure.isin(("evaluations", "gain"))
+    has_ended_well = old["outcome"].astype(str).isin(("", OUTCOMES[SETTLED]))
+    rows = is_decided & ~is_rounding.to_numpy() & has_ended_well.to_numpy()
+    is_perturbed = probe.isin(("wrong-inertia", "moving-goal"))
+    relative = np.where(is_perturbed, PERTURBED_RELATIVE, RELATIVE)
+    absolute = np.where(measure == "settling_time_s", HALF_TICK_S, ABSOLUTE)
+    return Rule(lambda column: (relative, absolute), rows, {"outcome": is_decided})
+
+
 RULES: dict[str, Callable[[pd.DataFrame, pd.DataFrame], Rule]] = {
     "episodes": compare_episodes,
     "velocity": compare_episodes,
@@ -144,6 +162,7 @@ RULES: dict[str, Callable[[pd.DataFrame, pd.DataFrame], Rule]] = {
     "command-field": compare_command_field,
     "costs": lambda old, new: Rule(within(0.0, 0.0)),
     "boundaries": lambda old, new: Rule(within(0.0, BOUNDARY_ANGLE), skipped=("outcome",)),
+    "probes": compare_probes,
     "velocity-limits": lambda old, new: Rule(within(LIMIT_RELATIVE, LIMIT_RELATIVE)),
     "traces": lambda old, new: Rule(within(RELATIVE, RELATIVE), skipped=("outcome",)),
 }

@@ -26,9 +26,6 @@ STUDIES = {
 }
 """Evidence that is in no table of a run, and what makes it."""
 
-COMPUTED = "experiment"
-"""The word among a claim's tables for evidence that the claim computes itself."""
-
 
 def facts(run: Run) -> dict:
     """Return the rules of all criteria, how steady verdicts are, what decided each claim, and the tables."""
@@ -103,17 +100,11 @@ def describe_rows(one: Verdict, run: Run) -> str:
     evidence = one.evidence
     if not evidence.rows:
         return ""
-    files = [link_file(name, run) for name in evidence.tables if name not in (*STUDIES, COMPUTED)]
+    files = [link_file(name, run) for name in evidence.tables if name not in STUDIES]
     files += [folder for name, folder in STUDIES.items() if name in evidence.tables]
-    computed = "values that are in no file of results: the command <code>bench claims</code> computes these values"
-    number = html.number(evidence.rows)
-    if not files:
-        return f"The verdict uses {number} {computed}."
-    listed = join_words(files)
-    used = f"The verdict uses {number} rows of {listed}"
-    beside = f". It also uses {computed}" if COMPUTED in evidence.tables else ""
+    used = f"The verdict uses {html.number(evidence.rows)} rows of {join_words(files)}"
     others = '<a href="appendix-data.html#tab-files">List of all files</a>.'
-    return f"{used}{beside}. {others}{list_conditions(evidence.chosen)}"
+    return f"{used}. {others}{list_conditions(evidence.chosen)}"
 
 
 def link_file(table: str, run: Run) -> str:
@@ -139,7 +130,7 @@ def describe_commands(one: Verdict) -> str:
     """Return the commands that make the rows of a claim again and judge it."""
     if one.claim.replay:
         return f"<code>{one.claim.replay}</code> ({HOW_TO_RUN})."
-    stored = [name for name in one.evidence.tables if name not in (*STUDIES, COMPUTED)]
+    stored = [name for name in one.evidence.tables if name not in STUDIES]
     made = "<code>make bench</code> makes the tables of results, and " if stored or not one.evidence.tables else ""
     return f"{made}<code>bench claims</code> judges the claim ({HOW_TO_RUN})."
 

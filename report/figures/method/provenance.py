@@ -48,6 +48,11 @@ LABELS = {
     "vectors": "Vector instructions of the processor",
     "platform": "Platform",
     "arithmetic": "Settings of the arithmetic",
+    "added table": "Table that was added to the run later",
+    "added command": "Command that made this table",
+    "added commit": "Commit of this table",
+    "added sources": "Digest of the source code of this table",
+    "added finished": "This table was finished (UTC)",
 }
 """Facts of provenance.json as a reader calls them, in this order; others follow by their own names."""
 VERSION, SETTING = "versions ", "arithmetic "

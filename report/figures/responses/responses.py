@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.tables.read import chosen
-from bench.findings.claims.probes import euler_angles_along
+from bench.findings.claims.places import euler_angles_along
 from bench.findings.theory import closed_form
 from report.figures.kit import laws, style
 from report.figures.kit.inline import Drawing, responsive_picture

@@ -1,7 +1,7 @@
 """Claims of Lopez and Slotine 2024, LS01 to LS10, judged by the same rules as the claims of Murphy.
 
 Brett T. Lopez and Jean-Jacques Slotine, Quaternion Sliding Variables in Manipulator Control, arXiv:2412.18921.
-`attitude` has the claims, `motions` the episodes that they compute, and `body_frame` the law in the other frame.
+`attitude` has the claims; the motions that they look at are probes (`bench.experiments.probes.sliding`).
 """
 
 WHAT_WE_READ = """

@@ -22,10 +22,15 @@ def law_in_body_frame(R: Any, omega: Any, goal: Any, gains: Any) -> Any:
     With -eps and -omega, the command of `sliding` is -u: all its terms but eps x omega change their sign.
     """
     w, v, t = turn_quaternion(R, goal.R)
-    opposite, back = (-v[0], -v[1], -v[2]), (-omega[0], -omega[1], -omega[2])
+    opposite, back = (
+        (-v[0], -v[1], -v[2]),
+        (-omega[0], -omega[1], -omega[2]),
+    )
     u = sliding.slide(w, opposite, sqrt(t), back, gains)
     return (-u[0], -u[1], -u[2])
 
 
-IN_BODY_FRAME = sliding.REGULATOR._replace(name="sliding-in-body-frame", law=law_in_body_frame)
-"""Known to the claims alone: no suite runs it."""
+IN_BODY_FRAME = sliding.REGULATOR._replace(
+    name="sliding-in-body-frame", law=law_in_body_frame
+)
+"""Known to the probe `sliding-frames` alone: no suite runs it on its own."""

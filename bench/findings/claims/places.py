@@ -1,0 +1,54 @@
+"""Where starts, goals and samples of a run's tables lie: Euler angles, and distances from poles, jumps and 180°."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from bench.base.on_first_use import pd
+from bench.experiments.probes.commands import EXACT_RAD
+from bench.findings.claims.tables import some
+
+QUAT = ("quat_w", "quat_x", "quat_y", "quat_z")
+GOAL_QUAT = tuple(f"goal_{name}" for name in QUAT)
+OMEGA = ("omega0_x", "omega0_y", "omega0_z")
+
+
+def euler_angles_along(trace: pd.DataFrame) -> np.ndarray:
+    """Return alpha, beta, gamma of each sample of a trace, n x 3, from the columns of R as `zyx_euler.chart` has it."""
+    n, o, a = (trace[[f"{column}_{x}" for x in "xyz"]].to_numpy(float).T for column in "noa")
+    level = np.sqrt(n[0] * n[0] + n[1] * n[1])
+    is_off_pole = level > 0.0
+    over = np.where(is_off_pole, level, 1.0)
+    sine = np.where(is_off_pole, n[1] / over, 0.0)
+    cosine = np.where(is_off_pole, n[0] / over, 1.0)
+    alpha = np.where(is_off_pole, np.arctan2(n[1], n[0]), 0.0)
+    beta = np.arctan2(-n[2], level)
+    gamma = np.arctan2(sine * a[0] - cosine * a[1], cosine * o[1] - sine * o[0])
+    return np.stack([alpha, beta, gamma], axis=1)
+
+
+def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:
+    """Return the distance of each start from the poles, the jumps of alpha and gamma, and 180° [rad]."""
+    return pd.DataFrame(
+        {
+            "pole": math.pi / 2 - frame["beta0"].abs(),
+            "wrap": np.minimum(math.pi - frame["alpha0"].abs(), math.pi - frame["gamma0"].abs()),
+            "half_turn": math.pi - frame["angle0_rad"],
+        }
+    )
+
+
+def at_boundary(frame: pd.DataFrame, place: str, what: str) -> pd.DataFrame:
+    """Return the starts that are exactly on a pole, a wrap or at 180°; NoEvidence: there is none."""
+    return some(frame[boundary_distance(frame)[place] <= EXACT_RAD], what)
+
+
+def goal_to_pole(frame: pd.DataFrame, columns: Sequence[str] = GOAL_QUAT) -> pd.Series:
+    """Return how far each goal is from the poles [rad]."""
+    w, x, y, z = frame[list(columns)].to_numpy(float).T
+    level = np.hypot(w * w + x * x - y * y - z * z, 2.0 * (x * y + w * z))
+    beta = np.arctan2(-2.0 * (x * z - w * y), level)
+    return math.pi / 2 - pd.Series(np.abs(beta), index=frame.index)
