@@ -200,10 +200,9 @@ def _price_of_default(law: str, folder: Path) -> str:
 def _usual(law: str, folder: Path) -> Need:
     shares = measure_shares(law, folder, tie=SPOKEN)
     why = (
-        f"in {percent(1.0 - shares.failing.value)} of {shares.failing.of} random situations the "
-        "law meets our requirements, such as to settle from every start tried; in "
-        f"{percent(shares.qualified.value)} of the situations it meets them, and no other law "
-        f"that meets them is more than {percent(SPOKEN)} faster"
+        f"in {percent(shares.qualified.value)} of {shares.qualified.of} random situations the law "
+        "meets our requirements, and no other law that meets them is more than "
+        f"{percent(SPOKEN)} faster"
         f"{_name_least_beaten(law, folder, '; ')}"
     )
     return Need(ANY_START, law, attribute(law), why, join_words(_list_costs(law, folder)))

@@ -28,7 +28,7 @@ STEPS = 200
 """Points of a straight way: its length is then short by less than a thousandth."""
 
 POSSIBLE = 1e-12
-"""Of a determinant of order 1: some hundred roundings."""
+"""Rounding of a determinant of order 1: some hundred roundings."""
 
 MIDDLE_RAD = 0.8
 """A middle angle at which no form of Euler angles is degenerate."""

@@ -1,4 +1,4 @@
-"""Where starts, goals and samples of a run's tables lie: Euler angles, and distances from poles, jumps and 180°."""
+"""Find where starts, goals and samples of tables lie: Euler angles, distances from poles, jumps and 180°."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ PEG_ENDS = {
     "moment_error_end_nm": (0.01, 0.002),
     "contact_settling_time_s": (0.03, 0.0),
 }
-"""The same of a peg that sticks and slips: rounding decides where its last slip ends. Poses that differ only by a
+"""Tolerances of a peg that sticks and slips: rounding decides where its last slip ends. Poses that differ only by a
 rotation of the whole task, which these controllers do not notice, differ by 0.7 % of 0.63 N and by 0.22 s of 10.4 s.
 Another processor's libraries moved an error at the end from 0.042 N to 0.038 N; the largest errors are above 36 N.
 """
