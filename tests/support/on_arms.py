@@ -13,7 +13,7 @@ from bench.law.chain import Chain
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import all_contenders
 from bench.law.control.resolved_acceleration import assembly, control, parts_of
-from bench.law.inputs import Gains, Goal
+from bench.law.inputs import Gains, Goal, Tuning
 from bench.law.so3 import Rotation, from_quaternion
 from support.buffers import bias_of, chain_of, inertia_of, jacobian_of
 from support.states import vector
@@ -96,6 +96,6 @@ def torques(one, at: Here, goal_wxyz, p_d, gains=GAINS):
     with np.errstate(all="ignore"):
         u, _ = control(
             assembly(parts_of(one, command_of(one))), one.inverse.resolve, int(one.inverse.gives == "torque"), one.rows,
-            at.chain, at.D, at.fg, goal, vector(p_d), Gains(*map(np.float64, gains)), memory_of(one), into,
+            at.chain, at.D, at.fg, goal, vector(p_d), Tuning(*map(np.float64, gains)), memory_of(one), into,
         )  # fmt: skip
     return into.tau.copy(), np.array(u)
