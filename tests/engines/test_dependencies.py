@@ -22,24 +22,21 @@ from bench.engines.metrics.registry import metrics_of
 from bench.experiments.limiters import clamp_axes
 from bench.law.contenders.registry import contenders, find_contender
 from bench.law.contender import Contender
-from bench.engines.binding import command_of
-from bench.running.timing.law import loop_of
 
 numba.njit = lambda *signature, **options: lambda function: stamp_of(function).digest
 laws = {name: find_contender(name) for name in ("mrp", "mrp-memory", "linearized-euler/zyx-euler")}
-laws["deoxys"] = Contender(contenders("shipped")["deoxys"])
+laws["deoxys"] = Contender(contenders("shipped")["deoxys"].law)
 stamps = {name: simulate.evaluation(law) for name, law in laws.items()}
 for kind in ("ideal-rk4", "perturbed", "arm"):
     stamps[kind] = simulate.compiled_loop(kind, tuple(metrics_of(kind == "arm")))
 stamps["limiter"] = compiled.part(clamp_axes, compiled.LIMIT)
-stamps["time"] = loop_of(command_of(laws["mrp"]), (1.0, 0.0, 0.0, 0.0))
 print(json.dumps(stamps | {"rows": source_digest()}))
 """
 
 LOOPS = {"ideal-rk4", "perturbed", "arm"}
 LAWS = {"mrp", "mrp-memory", "linearized-euler/zyx-euler", "deoxys"}
-WIDE = {"rows", "time"}
-"""Rows, and the timing of laws: their modules import the experiments, and these all there is."""
+WIDE = {"rows"}
+"""Rows: their modules import the experiments, and these all there is."""
 CODE = LOOPS | LAWS | {"limiter"}
 
 HARMLESS = [

@@ -1,6 +1,6 @@
 """The rows of a run that laws are compared on: the free body, the same starts for every law, and the time of a law.
 
-A law's time is a share of a whole controller's (`bench.running.timing.controller`) with the rotation-matrix law, by the
+A law's time is a share of a whole controller's (tests/benchmarks/test_arms.py) with the rotation-matrix law, by the
 times of results/timings.
 """
 

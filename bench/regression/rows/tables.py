@@ -26,6 +26,7 @@ PERTURBED_RELATIVE = 1e-4  # noise or a moving goal has driven what settles for 
 ON_SET, THROWN = 1e-6, 1.0
 """A goal whose margin is smaller is meant to be on the singular set of its coordinates. Above a torque of THROWN times
 its rated one a hand has been thrown about. In both cases rounding decides the outcome."""
+SEARCH_RELATIVE = 0.01  # a search for the least |e| ends anywhere on a flat floor: two libraries' ends differ by 2e-3
 HALF_TICK_S = 5e-4  # of the 1 ms that probes are compared at
 CONTACT = (1e-4, 1e-7)
 """Relative and absolute. Impacts multiply rounding: 1e-16 in a joint angle becomes 4e-7 in a jammed peg's force."""
@@ -148,7 +149,8 @@ def compare_probes(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
     has_ended_well = old["outcome"].astype(str).isin(("", OUTCOMES[SETTLED]))
     rows = is_decided & ~is_rounding.to_numpy() & has_ended_well.to_numpy()
     is_perturbed = probe.isin(("wrong-inertia", "moving-goal"))
-    relative = np.where(is_perturbed, PERTURBED_RELATIVE, RELATIVE)
+    is_searched = probe == "error-search"
+    relative = np.select([is_perturbed, is_searched], [PERTURBED_RELATIVE, SEARCH_RELATIVE], RELATIVE)
     absolute = np.where(measure == "settling_time_s", HALF_TICK_S, ABSOLUTE)
     return Rule(lambda column: (relative, absolute), rows, {"outcome": is_decided})
 
