@@ -17,7 +17,6 @@ from bench.engines.metrics.registry import metrics_of
 from bench.experiments.episode_rows import judged_columns
 from bench.experiments.episodes import simulate
 from bench.experiments.experiment import Settings, Unit
-from bench.experiments.probes.body_frame import IN_BODY_FRAME
 from bench.experiments.probes.number import Number
 from bench.law.contenders.registry import find_contender, regulator
 from bench.law.inputs import Gains
@@ -175,6 +174,9 @@ def measure_frames(settings: Settings, unit: Unit) -> Iterator[Number]:
 
     From the same starts, at rest (uniform) and spinning (tumbling): of the angles to the goal, and of the orientations.
     """
+    # Imported here: it builds on another law's file, and a plan is made without laws.
+    from bench.experiments.probes.body_frame import IN_BODY_FRAME
+
     words = find_contender(LAW).words
     for name in ("uniform", "tumbling"):
         starts = tasks.start_set(name, STARTS_OF_A_SET, settings.seed)
