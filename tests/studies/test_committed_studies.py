@@ -103,7 +103,7 @@ def test_seed_and_step_run_what_hangs_on_them():
     assert (drawn.settings.seed, drawn.settings.dt_s) == (3, 1e-3)
     assert (halved.settings.seed, halved.settings.dt_s) == (0, 5e-4)
     kinds, stepped = ({unit.experiment for unit in plan.units} for plan in (drawn, halved))
-    assert {"free-body", "arm", "jacobians", "traces", "robustness"} == kinds
+    assert {"free-body", "arm", "jacobians", "probes", "traces", "robustness"} == kinds
     assert stepped == kinds - {"jacobians"} | {"boundaries", "contact"}
 
 

@@ -10,7 +10,7 @@ acceleration a of what is held and the wrench h to exert, on a hand at rest:
                           the others free: Lambda_11 xddot_1 = W_1, and W_2 - Lambda_21 xddot_1 is
                           exerted on the wall. Both orders accelerate the hand by a; the first
                           exerts h, the second h - Lambda_21 a.
-    motion that is held   Nothing moves, and all of W is exerted: h + Lambda_21 a by the first
+    motion that is stopped   Nothing moves, and all of W is exerted: h + Lambda_21 a by the first
                           order, h by the second.
 
 The error is what is exerted less h. Units of Lambda: kg, kg m and kg m^2, by the units of its rows.
@@ -30,7 +30,7 @@ from tasks.arm_model import Arm
 from tasks.base import Vector
 from tasks.hand_frames import at
 
-HAPPENS, HELD = "motion that happens", "motion that is held"
+HAPPENS, HELD = "motion that happens", "motion that is stopped"
 CASES = (HAPPENS, HELD)
 
 SELECTED_FIRST, DECOUPLED_FIRST = SELECTION_ORDERS

@@ -15,7 +15,7 @@ acceleration of what is held. Each is exact where the other errs:
     motion that happens    The hand accelerates as it is commanded. It takes C Lambda S a to give it
                            a where it is held and nothing where it complies. Against a rigid wall
                            without friction the first exerts h, the second h - C Lambda S a.
-    motion that is held    Friction or a stop holds the hand although a is not zero. No inertia
+    motion that is stopped    Friction or a stop holds the hand although a is not zero. No inertia
                            takes any of W, and what the hand exerts is W: along what complies h by
                            the second, h + C Lambda S a by the first.
 

@@ -6,8 +6,8 @@
 bound at every orientation and every rate. Near the goal, where |s| is small, u = Kp phi - Kv omega.
 Without a bound the law is `quaternion_shortest`.
 
-Source: Boskovic, Li, Mehra 2001, J. Guidance, Control, Dynamics 24(4) 627-634. We read the law in
-two later codes, not in the paper: u_i = u_max s_i/(|s_i| + k^2 delta), s = k^2 eps - omega in our
+Source: Boskovic, Li, Mehra 2001, J. Guidance, Control, Dynamics. We read the law in two later
+codes, not in the paper: u_i = u_max s_i/(|s_i| + k^2 delta), s = k^2 eps - omega in our
 signs, with a gain k that is adapted. So k^2 = 2 Kp/Kv and delta = bound/(2 Kp) here. Ours are: the
 whole vector in place of each component, so that the direction of s is kept; the constant k; and the
 nearer of the two quaternions.
