@@ -220,7 +220,7 @@ def test_a_tip_that_starts_along_a_plane_without_friction_presses_as_it_should_b
 
 
 def test_a_tool_that_friction_holds_presses_as_it_should_by_the_second_order_alone():
-    """Motion that is stopped: a tool at rest on a plate, off its place because it has turned and does not slide back."""
+    """Motion that is stopped: a tool at rest on a plate, off its place because it turned and does not slide back."""
     task = surface_alignment.TASK
     trial = next(one for one in task.trials(tasks.arm("puma560")) if one.id == "tilt 5 about 90, beta+0")
     off = {}
