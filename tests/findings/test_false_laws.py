@@ -243,7 +243,7 @@ FALSE = {
         write("    kp = kp").replace("law, property", "law, gains=Gains(-1.0, 5.0), property").replace(
             "import Law", "import Gains, Law"
         ),
-        "not positive",
+        "a law is called with its gains",
     ),
     "constant-by-chance": (
         write("    kv = kv * SIGN", "import numpy as np\n\nSIGN = 1.0 if np.random.random() < 2.0 else -1.0"),
