@@ -26,7 +26,7 @@ PERTURBED_RELATIVE = 1e-4  # noise or a moving goal has driven what settles for 
 ON_SET, THROWN = 1e-6, 1.0
 """A goal whose margin is smaller is meant to be on the singular set of its coordinates. Above a torque of THROWN times
 its rated one a hand has been thrown about. In both cases rounding decides the outcome."""
-SEARCH_RELATIVE = 0.01  # a search for the least |e| ends anywhere on a flat floor: two libraries' ends differ by 2e-3
+SEARCH_RELATIVE = 0.01  # where |e| is flat, a search for its least value ends anywhere: 2e-3 apart
 HALF_TICK_S = 5e-4  # of the 1 ms that probes are compared at
 CONTACT = (1e-4, 1e-7)
 """Relative and absolute. Impacts multiply rounding: 1e-16 in a joint angle becomes 4e-7 in a jammed peg's force."""
@@ -45,9 +45,10 @@ PEG_ENDS = {
     "moment_error_end_nm": (0.01, 0.002),
     "contact_settling_time_s": (0.03, 0.0),
 }
-"""Tolerances of a peg that sticks and slips: rounding decides where its last slip ends. Poses that differ only by a
-rotation of the whole task, which these controllers do not notice, differ by 0.7 % of 0.63 N and by 0.22 s of 10.4 s.
-Another processor's libraries moved an error at the end from 0.042 N to 0.038 N; the largest errors are above 36 N.
+"""Tolerances of a peg that sticks and slips: rounding decides where its last slip ends. Poses that
+differ only by a rotation of the whole task, which these controllers do not notice, differ by 0.7 %
+of 0.63 N and by 0.22 s of 10.4 s. Another processor's libraries moved an error at the end from
+0.042 N to 0.038 N; the largest errors are above 36 N.
 """
 
 
