@@ -136,7 +136,7 @@ def test_measured_value_is_of_the_run_s_gains_and_names_those_with_another_word(
         return word, Evidence("", 1, measured=f"{run.kv:g} starts.", numbers=numbers)
 
     own = Run(20.0)
-    own.experiments = {"other_gains": lambda results: [Run(10.0)]}
+    own.others = [Run(10.0)]
     _, evidence = at_every_gain(decide)(own)
     assert evidence.measured == "At Kp = 100, Kd = 20: 20 starts. At Kp = 100, Kd = 10, the claim does not hold."
     assert evidence.numbers == (
