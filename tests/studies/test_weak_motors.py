@@ -18,6 +18,7 @@ def test_least_time_is_known_for_every_situation_in_which_a_law_is_advised():
     rows = read_weak_motors()
     assert rows["bound"].between(*BOUNDS).all()
     assert rows.loc[rows["advised"] != "none", "least"].notna().all()
+    assert rows["least"].notna().mean() > 0.9
     advised = rows[rows["advised"] != "none"]
     assert len(advised) > 0.8 * len(rows)
     assert (advised["time"] > advised["least"]).all()
