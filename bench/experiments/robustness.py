@@ -63,7 +63,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 
 def _is_told_apart(one: Contender, axis: str, part: Robustness, choice: Choice) -> bool:
-    """Return whether a law may differ along an axis from another law that runs there, or is asked for by name."""
+    """Return whether a law may differ along an axis from another law that runs there, or is named by the user."""
     is_named = bool(choice.axes or choice.regulators or one.regulator.origin)
     return is_named or not part.bounded or one.name not in BOUNDED or axis in part.bounded
 

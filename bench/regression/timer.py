@@ -52,7 +52,7 @@ SILENT_S = 300.0
 """On the wall, until processes that say nothing are ended: ten times what compiling a law takes."""
 
 LOOK_S = 0.2
-"""How often it is asked whether a process has ended, and what it says."""
+"""How often the timer looks whether a process has ended, and what it prints then."""
 
 OPTIONS = (
     *("-c", os.devnull, "--rootdir", ".", "--confcutdir", str(BENCHMARKS)),

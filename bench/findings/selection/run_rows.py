@@ -1,7 +1,7 @@
 """A row a law, with the columns that the rule of `regions` reads, made of the rows of a run.
 
 The map's rows are made of situations; these are made of what a run has: the free body, arms, and robots that are
-commanded in velocity. So one rule decides everywhere, each time on the rows of the robot that is asked about.
+commanded in velocity. So one rule decides everywhere, on the rows of each robot.
 """
 
 from __future__ import annotations
