@@ -51,7 +51,7 @@ NOT_WRITTEN = "stopped; nothing was written\n"
         ("bench.findings.claims.tables", ("claims", "results/reference"), NOT_WRITTEN),
         ("bench.running", ("run", "--suite", "quick"), "stopped; what was finished is kept, and the same command goes"),
         ("bench.running", ("map",), "stopped; what was finished is kept, and the same command goes on from there\n"),
-        ("bench.running", ("time", "--quick"), "stopped; this command keeps nothing of what was not finished"),
+        ("bench.regression", ("time", "--quick"), "stopped; this command keeps nothing of what was not finished"),
     ],
 )
 def test_interrupt_says_what_is_kept(tmp_path, module, words, said):
