@@ -64,7 +64,7 @@ def COMMAND(
 
 def _rows(chosen: list[Contender], arm: str = "") -> pd.DataFrame:
     """Rows of costs.parquet: of laws alone, or on an arm; a user's are counted in their sandbox."""
-    from bench.running.sandbox import Sandbox
+    from bench.running.sandbox.sandbox import Sandbox
 
     own = tuple(dict.fromkeys(one.regulator for one in chosen if one.regulator.origin))
     plan = Plan(Settings(own=own), tuple(Unit("costs", one.name, arm=arm) for one in chosen))
