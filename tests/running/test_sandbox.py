@@ -73,7 +73,7 @@ def test_law_that_never_returns_is_given_up_after_three_losses_and_this_is_said_
     assert len(rows["mine"]) == len(rows["sound"]) == 25 * 20
     assert "hung" not in set(rows["sound"]["outcome"])
     assert len(notes) == sandbox.MOST_LOST + 1
-    assert notes[-1] == "mine: it was lost 3 times; all its other episodes are hung, and are not tried"
+    assert notes[-1] == "mine: it was lost 3 times; its other episodes count as hung and are not tried"
 
 
 def test_perturbed_law_that_hangs_loses_the_whole_unit(tmp_path):

@@ -174,15 +174,15 @@ class Sandbox(contextlib.AbstractContextManager):
         rows = lost_table(self.plan.settings, stretch, outcome).num_rows
         what = f"its {stretch.episodes} episodes are {outcome}" if rows else "it has no rows"
         where = unit.label
-        if stretch is not unit:
+        if experiment_of(unit).is_divisible:
             where += f", {unit.selector} from {stretch.first}"
         self._note(f"{where}: {error}; {what}")
         self._losses[law] += 1
         if self._losses[law] == MOST_LOST:
             self._given_up[law] = NoAnswer(outcome, f"it was lost {MOST_LOST} times ({error})")
             self._note(
-                f"{law}: it was lost {MOST_LOST} times; all its other episodes are {outcome}, and "
-                "are not tried"
+                f"{law}: it was lost {MOST_LOST} times; its other episodes count as {outcome} "
+                "and are not tried"
             )
 
     def _given_up_for(self, unit: Unit) -> NoAnswer | None:
