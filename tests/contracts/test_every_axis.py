@@ -193,13 +193,13 @@ NAMED = {
     "representations": "zyx-euler",
     "axes": "delay",
 }
-LAWS = [find_contender("rotation-matrix"), find_contender("linearized-euler/zyx-euler")]
+LAWS = (find_contender("rotation-matrix"), find_contender("linearized-euler/zyx-euler"))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", NAMED)
 def test_named_word_leaves_only_experiments_that_take_it(kind):
-    made = plan.make(Request("quick", tuple(LAWS), **{kind: (NAMED[kind],)}))
+    made = plan.make(Request("quick", LAWS, **{kind: (NAMED[kind],)}))
     planned = {unit.experiment for unit in made.units}
     assert planned
     assert planned <= {one.name for one in known_experiments().values() if kind in one.takes}
@@ -214,4 +214,4 @@ def test_every_kind_of_word_is_tried_here():
 def test_word_that_a_named_experiment_does_not_take_is_refused(one):
     for kind in NAMED.keys() - {*one.takes}:
         with pytest.raises(Incompatible, match=f"'{NAMED[kind]}' cannot narrow the experiment '{one.name}'"):
-            plan.make(Request("quick", tuple(LAWS), **{kind: (NAMED[kind],)}, experiments=(one.name,)))
+            plan.make(Request("quick", LAWS, **{kind: (NAMED[kind],)}, experiments=(one.name,)))

@@ -21,8 +21,8 @@ from bench.law.contenders.registry import all_contenders, find_contender
 from bench.law.control.registry import all_controllers, find_controller
 from bench.running import run as running
 
-LAW = [find_contender("rotation-matrix")]
-EVERY_LAW = [one for one in all_contenders() if not one.regulator.costing_only]
+LAW = (find_contender("rotation-matrix"),)
+EVERY_LAW = tuple(one for one in all_contenders() if not one.regulator.costing_only)
 TASKS = tasks.contact_names()
 ABLE = [arm for arm in tasks.arm_names() if can_do(tasks.contact_task("wrench-probe"), tasks.arm(arm))]
 EULER = "hybrid/zyx-euler+inverse"
@@ -31,7 +31,7 @@ DRY = ("run", "--dry-run", "--suite", "quick")
 
 def contacts(suite="quick", **words):
     """The units in contact of a suite with these words of a request, and the episodes beside them."""
-    plan = planning.make(Request(suite, tuple(LAW), **words or {"experiments": ("contact", "free-body")}))
+    plan = planning.make(Request(suite, LAW, **words or {"experiments": ("contact", "free-body")}))
     return plan.of("contact"), plan.episodes("free-body", "arm")
 
 
@@ -60,7 +60,7 @@ def test_suite_sets_every_task_to_every_arm_that_can_do_it(suite):
 
 @pytest.mark.parametrize(("suite", "laws", "count"), [*((one, LAW, None) for one in SUITES), ("quick", EVERY_LAW, 7)])
 def test_units_cover_each_pose_and_start_once_and_have_keys_of_their_own(suite, laws, count):
-    plan = planning.make(Request(suite, tuple(laws), count=count))
+    plan = planning.make(Request(suite, laws, count=count))
     assert len({unit.key for unit in plan.units}) == len(plan.units)
     reached: dict = {}
     for unit in plan.of("contact", "free-body", "arm"):
@@ -110,7 +110,7 @@ def test_impedance_is_set_what_differs_in_more_than_the_selection():
 
 def test_integrator_in_contact_is_implicit_unless_one_is_named():
     usual, both = (
-        planning.make(Request("quick", tuple(LAW), arms=("ur5e",), **integrators(word))).request
+        planning.make(Request("quick", LAW, arms=("ur5e",), **integrators(word))).request
         for word in (None, "rk4")
     )
     assert (usual.integrator, usual.contact_integrator) == ("euler", "implicitfast")
@@ -148,16 +148,16 @@ def test_dry_run_counts_trials_of_each_arm_and_task(capsys):
         assert f"contact, {arm}: wrench-probe 18 " in said.out
 
 
-TWO = [find_contender("rotation-matrix"), find_contender("hybrid")]
+TWO = (find_contender("rotation-matrix"), find_contender("hybrid"))
 
 
 def made(laws=TWO, **options):
-    return planning.make(Request("quick", tuple(laws), **options))
+    return planning.make(Request("quick", laws, **options))
 
 
 @pytest.mark.parametrize("suite", SUITES)
 def test_every_suite_perturbs_every_law_on_r_along_every_axis(suite):
-    found = robustness.units(Request(suite, tuple(EVERY_LAW)))
+    found = robustness.units(Request(suite, EVERY_LAW))
     met = {(unit.contender, unit.selector) for unit in found}
     on_matrix = [one.name for one in EVERY_LAW if one.representation is None and not one.regulator.in_engine]
     bounded = SUITES[suite].sections["robustness"]["bounded"]
@@ -184,13 +184,13 @@ def test_words_that_an_axis_does_not_take_are_refused():
     with pytest.raises(UnknownWord, match="did you mean 'delay'"):
         made(axes=("dely",))
     with pytest.raises(Incompatible, match="laws of the free body"):
-        made([find_contender("in-engine")], axes=("delay",))
+        made((find_contender("in-engine"),), axes=("delay",))
 
 
 @pytest.fixture(scope="module")
 def rows(tmp_path_factory) -> pd.DataFrame:
     out = tmp_path_factory.mktemp("perturbation")
-    laws = [find_contender(word) for word in ("rotation-matrix", "hybrid", "gibbs")]
+    laws = tuple(find_contender(word) for word in ("rotation-matrix", "hybrid", "gibbs"))
     running.run(made(laws, count=3, axes=("delay", "half-turn-noise"), experiments=("robustness",)), out)
     return with_contender(read(out, "robustness"))
 

@@ -17,6 +17,7 @@ from bench.law.contenders import combinations
 from bench.law.contenders.registry import contenders, find_contender
 from bench.law.inputs import Gains
 
+EVERY_LAW = tuple(LAWS.values())
 ON_BOTH = ("ur5e", "panda")  # six joints and seven: nothing else of an arm decides what goes together
 SHORT = ("run", "--dry-run", "--suite", "quick", "--task", "arm-regulation", "--starts", "clear", "--count", "2")
 
@@ -66,8 +67,7 @@ def test_plan_of_a_named_combination_is_that_one_alone_or_refused_with_its_reaso
 
 
 def test_arm_alone_is_the_suite_on_that_arm():
-    laws = list(LAWS.values())
-    plan = planning.make(Request("default", tuple(laws), arms=("puma560",)))
+    plan = planning.make(Request("default", EVERY_LAW, arms=("puma560",)))
     assert {unit.arm for unit in plan.units if unit.arm} == {"puma560"}
     ideal = {unit.contender for unit in plan.of("arm") if unit.variation == IDEAL_MOTORS}
     section = SUITES["default"].sections["arm"]
@@ -80,14 +80,14 @@ def test_arm_alone_is_the_suite_on_that_arm():
 
 
 def test_default_suite_varies_the_model_on_every_arm():
-    plan = planning.make(Request("default", tuple(LAWS.values())))
+    plan = planning.make(Request("default", EVERY_LAW))
     varied = {(unit.arm, unit.variation) for unit in plan.of("arm")}
     assert varied == {(arm, word) for arm in ARMS for word in tasks.variation_names(arm)}
 
 
 @pytest.mark.parametrize("suite", ["quick", "default"])
 def test_compared_laws_run_on_every_arm_as_it_is_with_three_levels_of_gains(suite):
-    plan = planning.make(Request(suite, tuple(LAWS.values())))
+    plan = planning.make(Request(suite, EVERY_LAW))
     for arm in map(tasks.arm, ARMS):
         units = [unit for unit in plan.of("arm") if unit.arm == arm.name and unit.variation == NOMINAL]
         by_gains = {}
@@ -107,7 +107,7 @@ def test_no_episode_is_planned_twice_whatever_the_gains(kp):
 
 
 def test_full_suite_runs_every_compatible_combination():
-    plan = planning.make(Request("full", tuple(LAWS.values()), arms=ON_BOTH, count=1))
+    plan = planning.make(Request("full", EVERY_LAW, arms=ON_BOTH, count=1))
     for arm in ON_BOTH:
         planned = {unit.contender for unit in plan.of("arm") if unit.arm == arm and unit.variation == IDEAL_MOTORS}
         beside = combinations.baselines(tasks.arm(arm).joints)
@@ -115,8 +115,7 @@ def test_full_suite_runs_every_compatible_combination():
 
 
 def test_baselines_are_run_where_the_goals_joints_are_known_and_no_law_is_named():
-    laws = list(LAWS.values())
-    plan = planning.make(Request("default", tuple(laws), arms=("ur5e",)))
+    plan = planning.make(Request("default", EVERY_LAW, arms=("ur5e",)))
     names = {one.name for one in combinations.baselines(6)}
     assert {unit.selector for unit in plan.of("arm") if unit.contender in names} == {"reach", "uniform"}
     for words in ({"regulators": ("hybrid",)}, {"inverses": ("solve",)}, {"variations": ("mass-1.30",)}):
@@ -134,7 +133,7 @@ def test_inverses_and_twins_are_run_where_they_differ_and_all_else_from_every_se
     usual = {one.name for one in combinations.on(others, LAWS, joints)}
     few = {one.name for one in combinations.on(at_few_starts, LAWS, joints)} - usual
     for sets, expected in (((), {"wrist", "uniform"}), (("clear",), {"clear"})):
-        plan = planning.make(Request("default", tuple(LAWS.values()), arms=(arm,), start_sets=sets))
+        plan = planning.make(Request("default", EVERY_LAW, arms=(arm,), start_sets=sets))
         usually = [unit for unit in plan.of("arm") if unit.variation == (NOMINAL if sets else IDEAL_MOTORS)]
         for name in few:
             assert {unit.selector for unit in usually if unit.contender == name} == expected

@@ -37,9 +37,9 @@ def change(folder, table, edit):
 @pytest.fixture(scope="module")
 def body(tmp_path_factory):
     """Two laws on the free body."""
-    laws = [find_contender("rotation-matrix"), find_contender("feedback-linearized/zyx-euler")]
+    laws = (find_contender("rotation-matrix"), find_contender("feedback-linearized/zyx-euler"))
     plan = planning.make(
-        Request("quick", tuple(laws), start_sets=("paper", "poles"), engines=("ideal-held",), horizon_s=2.0)
+        Request("quick", laws, start_sets=("paper", "poles"), engines=("ideal-held",), horizon_s=2.0)
     )
     return ran(plan, tmp_path_factory)
 
