@@ -17,7 +17,7 @@ from bench.experiments.episode_rows import judged_columns
 from bench.experiments.experiment import rows_of
 from bench.experiments.kept_rows import kept
 from bench.experiments.request import Request
-from bench.experiments.rounding import OUTCOME_NUDGED, CHANGE, NUDGE, rerun_nudged, nudged
+from bench.experiments.rounding import CHANGE, NUDGE, OUTCOME_NUDGED, nudged, rerun_nudged
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import find_contender
 from bench.law.kinds import UserFile
