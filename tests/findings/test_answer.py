@@ -9,7 +9,8 @@ import pytest
 from support.advised import velocities
 from support.user_law import spring_text
 
-from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.experiment import Unit, rows_of
+from bench.experiments.request import Request
 from bench.experiments.tables.read import with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import Results
@@ -183,7 +184,7 @@ FASTEST = "mrp"
 
 @functools.cache
 def lagging():
-    settings, laws = Settings("quick"), ("rotation-vector", FASTEST)
+    settings, laws = Request("quick"), ("rotation-vector", FASTEST)
     units = [Unit("velocity", law, "free-body", count=24, horizon_s=2.5) for law in laws]
     units += [
         Unit("velocity", f"{law}@geometric+solve", "arm-regulation", "ur5e", count=2, horizon_s=2.5) for law in laws

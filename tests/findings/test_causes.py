@@ -5,7 +5,8 @@ from support.command_line import bench
 from support.user_law import LAW, law_text
 
 from bench.experiments.command_field import rows
-from bench.experiments.experiment import Settings, Unit
+from bench.experiments.experiment import Unit
+from bench.experiments.request import Request
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import why
@@ -88,7 +89,7 @@ def field_of(folder, text):
     own = load_law(path)
     [one] = contenders_of(own)
     unit = Unit("command-field", one.name, "free-body", engine="ideal-held", count=1, total=1)
-    found = read.pd.DataFrame(rows(Settings(own=(own,)), unit))
+    found = read.pd.DataFrame(rows(Request(laws=(one,)), unit))
     return read.with_contender(found)
 
 

@@ -27,7 +27,7 @@ def c21(results: Results) -> tuple[Word, Evidence]:
     looped = results.table("compliance", task=PROBE, controller="hybrid", representation=COORDINATES)
     looped = looped[(looped["outcome"] == "done") & looped["work_residual"].notna()]
     looped = some(looped, f"work residual of {PROBE} by hybrid/{COORDINATES}")
-    poses, least = looped["pose"].nunique(), SUITES["quick"].in_contact.redundant_poses or 0
+    poses, least = looped["pose"].nunique(), SUITES["quick"].sections["contact"]["redundant_poses"]
     if results.folder and poses < least:
         raise NoEvidence(
             f"hybrid/{COORDINATES} ran {PROBE} at {poses} poses of the {least} that the claim "
