@@ -11,7 +11,7 @@ from bench.experiments import plan as planning
 from bench.experiments.experiment import Unit
 from bench.experiments.plan import Plan
 from bench.experiments.request import Request
-from bench.experiments.tables.read import table, with_contender
+from bench.experiments.tables.run import Run, with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import why
 from bench.findings.judgement import Judgement
@@ -136,7 +136,9 @@ def _beside(field: pd.DataFrame, episodes: pd.DataFrame) -> tuple[dict[str, Any]
     if field.empty or episodes.empty:
         return ()
     reference = RESULTS / "reference"
-    run = table(reference, "episodes")
+    whole = Run(reference)
+    run = whole.table("episodes")
     run = run[(run["arm"] == "") & (run["engine"] == ENGINE) & run["start_set"].isin(START_SETS)]
-    lines = why.beside(field, with_contender(episodes), table(reference, "command-field"), run).to_dict("records")
+    fields = whole.table("command-field")
+    lines = why.beside(field, with_contender(episodes), fields, run).to_dict("records")
     return tuple({key: None if value != value else value for key, value in line.items()} for line in lines)

@@ -14,7 +14,7 @@ from bench.experiments import robustness
 from bench.experiments.contact import DENSE, can_do, controllers_and_poses, cut, poses_of
 from bench.experiments.request import Request, integrators
 from bench.experiments.suites import BOUNDED, SUITES
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.run import with_contender
 from bench.experiments.tables.schema import table_of
 from bench.experiments.tables.store import read
 from bench.law.contenders.registry import all_contenders, find_contender

@@ -17,11 +17,18 @@ from bench.engines.simulate import run
 from bench.experiments import plan
 from bench.experiments.experiment import rows_of
 from bench.experiments.request import Request
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.run import with_contender
 from bench.experiments.velocity_limits import LAG_TICKS
 from bench.findings.theory import robustness_theory, thresholds
 from bench.findings.theory.held_goals import held_share, least_cosine
-from bench.findings.theory.velocity_limits import by_eigenvalues, derivative, lagged, near, on_arm, with_theory
+from bench.findings.theory.velocity_limits import (
+    by_eigenvalues,
+    derivative,
+    lagged,
+    near,
+    on_arm,
+    with_theory,
+)
 from bench.law.contenders.registry import all_contenders, contenders, find_contender, inverse
 from bench.law.display import Equation
 from bench.law.inputs import AT_REST, Gains, Goal

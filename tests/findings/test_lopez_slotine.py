@@ -14,10 +14,10 @@ from bench.experiments.probes import sliding as probe
 from bench.experiments.probes.body_frame import IN_BODY_FRAME
 from bench.experiments.probes.commands import command as command_of
 from bench.experiments.request import Request
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
 from bench.findings.claims.lopez_slotine_2024 import attitude
-from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import LONGEST_MEASURED, Word
 from bench.law.contenders.regulators import sliding
 from bench.law.inputs import Gains, Goal
@@ -154,7 +154,7 @@ def test_claim_has_its_texts(claim):
 
 @pytest.fixture(scope="module")
 def verdicts():
-    return {one.id: one for one in claims.judge_each(Results(RESULTS / "reference"), PAPER)}
+    return {one.id: one for one in claims.judge_each(Run(RESULTS / "reference"), PAPER)}
 
 
 def test_measured_values_fit_a_cell_and_what_does_not_hold_has_what_is_true(verdicts):

@@ -19,7 +19,7 @@ from bench.experiments.experiment import Unit, rows_of
 from bench.experiments.request import Request
 from bench.experiments.robustness import HORIZON_S
 from bench.experiments.tables import store
-from bench.experiments.tables.read import table, with_contender
+from bench.experiments.tables.run import Run, with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
 from bench.findings.maps import lost_share
@@ -35,7 +35,7 @@ from bench.studies.verdicts import HALF_STEP, RUNS, SEEDS, STORED, plan_of, turn
 
 def test_study_has_every_level_of_every_perturbation_for_every_law():
     found = studied().groupby("axis", observed=True)
-    assert set(found.groups) == set(table(RESULTS / "reference", "robustness")["axis"])
+    assert set(found.groups) == set(Run(RESULTS / "reference").table("robustness")["axis"])
     laws = set(studied()["contender"])
     assert {"late-braking", "rotation-matrix", "feedback-linearized/zyx-euler"} < laws
     for name, rows in found:
