@@ -7,8 +7,8 @@ base/         errors (each says its cure), provenance (where numbers come from, 
 law/          what a law is: the dialect, rotations, linear algebra, records. `from bench.law import Law, kernel`
               contenders/, one file each: regulators/ representations/ jacobians/ inverses/ impedances/ springs/, laws
               with a state of their own: compensators/, what others run: shipped/; registry finds them, combinations
-              says what goes together; a user's own: law_file runs it, law_process asks about it, described_law describes
-              it
+              says what goes together; a user's own: law_file runs it, law_process asks about it, described_law
+              describes it
               control/, contenders at work: resolved_acceleration (tau = D J^-1 (u - Jdot qdot) + fg), hybrid,
               velocity (omega = K f), impedance, unshaped (an impedance with the hand's own inertia), registry
 audit/        anybody's orientation error: pairs, convention, faults/ (one file each), report, its own command line and

@@ -1,5 +1,6 @@
 """A user's law that raises, exits, hangs or is no law at all in some states costs its own rows, never the run."""
 
+import dataclasses
 import textwrap
 import time
 from pathlib import Path
@@ -13,9 +14,9 @@ from support.user_law import plan_of, spring_text
 import tasks
 from bench.base.errors import BadLaw
 from bench.experiments import plan as planning
-from bench.experiments.choice import Choice
 from bench.experiments.experiment import experiment_of
 from bench.experiments.plan import Plan
+from bench.experiments.request import Request
 from bench.experiments.tables import store
 from bench.experiments.tables.packed import unpack
 from bench.law.contenders.described_law import described
@@ -40,8 +41,9 @@ def plan_of_many(folder: Path, condition: str, count: int) -> Plan:
         path = folder / f"{name}.py"
         path.write_text(spring_text(line, name=name))
         laws += contenders_of(described(path))
-    choice = Choice(("free-body",), ("uniform",), ("ideal-rk4",), experiments=("free-body",))
-    return planning.make("quick", laws, choice, count=count, horizon_s=0.05)
+    words = {"tasks": ("free-body",), "start_sets": ("uniform",), "engines": ("ideal-rk4",)}
+    request = Request("quick", tuple(laws), count=count, horizon_s=0.05, **words)
+    return planning.make(dataclasses.replace(request, experiments=("free-body",)))
 
 
 def rows_of_laws(plan: Plan) -> tuple[dict, list[str]]:
@@ -79,8 +81,9 @@ def test_law_that_never_returns_is_given_up_after_three_losses_and_this_is_said_
 def test_perturbed_law_that_hangs_loses_the_whole_unit(tmp_path):
     path = tmp_path / "own.py"
     path.write_text(spring_text("while R.n[0] < -0.1: x = x + 1e-9"))
-    choice = Choice(axes=("delay", "spin"), experiments=("robustness",))
-    plan = planning.make("quick", contenders_of(described(path)), choice, count=3, horizon_s=0.05)
+    laws = tuple(contenders_of(described(path)))
+    words = {"axes": ("delay", "spin"), "experiments": ("robustness",)}
+    plan = planning.make(Request("quick", laws, count=3, horizon_s=0.05, **words))
     run.run(plan, tmp_path / "run", workers=1, law_limit_s=LIMIT_S)
     rows = store.read(tmp_path / "run", "robustness")
     assert len(rows) == plan.episodes()

@@ -8,7 +8,8 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.columns import Table
-from bench.experiments.experiment import Settings, Unit, experiment_of, no_rows
+from bench.experiments.experiment import Unit, experiment_of, no_rows
+from bench.experiments.request import Request
 from bench.experiments.tables.store import lost_table
 from tasks.cause import CAUSES
 from tasks.verdict import CRASHED, OUTCOMES, SETTLED
@@ -29,15 +30,15 @@ def most_rows(unit: Unit) -> int:
     return MOST_ROWS if experiment_of(unit).lost is no_rows else unit.episodes
 
 
-def check_rows(settings: Settings, unit: Unit, rows: pd.DataFrame) -> None:
+def check_rows(request: Request, unit: Unit, rows: pd.DataFrame) -> None:
     """Raise ValueError for rows that are not the unit's.
 
     They are of another law or start, twice or too few, or have an unknown word.
     """
     experiment = experiment_of(unit)
-    words = settings.contender(unit.contender).words | {
-        "suite": settings.suite,
-        "seed": settings.seed,
+    words = request.contender(unit.contender).words | {
+        "suite": request.suite,
+        "seed": request.seed,
         "task": unit.task,
         "arm": unit.arm,
         "engine": unit.engine,
@@ -58,9 +59,9 @@ def check_rows(settings: Settings, unit: Unit, rows: pd.DataFrame) -> None:
         if name in rows and not rows[name].isin(("", *allowed)).all():
             raise ValueError(f"a row has no known word in {name}")
     if experiment.lost is not no_rows:
-        lost = lost_table(settings, unit, OUTCOMES[CRASHED])
+        lost = lost_table(request, unit, OUTCOMES[CRASHED])
         _check_known(rows, lost.to_pandas(), experiment.table)
-    if not experiment.is_whole(settings, unit, rows):
+    if not experiment.is_whole(request, unit, rows):
         raise ValueError(f"{len(rows)} rows are not all of those that {unit.experiment} has")
 
 

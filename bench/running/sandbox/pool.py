@@ -8,7 +8,8 @@ import pyarrow as pa
 
 from bench.base.errors import BadResults
 from bench.base.isolated import FORGED, SHOWN, IsolatedProcess, NoAnswer, TimeLimits
-from bench.experiments.experiment import Settings, Unit, experiment_of
+from bench.experiments.experiment import Unit, experiment_of
+from bench.experiments.request import Request
 from bench.experiments.tables.packed import most_bytes, unpack
 from bench.running.sandbox import server
 from bench.running.sandbox.answers import check_rows, most_rows
@@ -34,15 +35,15 @@ class LawProcess:
 
     Attributes:
         law: Its name.
-        settings: The plan's.
+        request: The plan's.
         plan: The units of the law and what they need, until the process has them.
         process: The process, and the line to it.
         prepared: Places that the law is compiled for.
     """
 
-    def __init__(self, law: str, settings: Settings, plan: dict):
+    def __init__(self, law: str, request: Request, plan: dict):
         self.law = law
-        self.settings = settings
+        self.request = request
         self.plan: dict | None = plan
         self.process = IsolatedProcess(server.__name__)
         self.prepared: set[tuple[str, ...]] = set()
@@ -86,7 +87,7 @@ class LawProcess:
         )
         try:
             rows = unpack(content, table, most)
-            check_rows(self.settings, stretch, rows.to_pandas())
+            check_rows(self.request, stretch, rows.to_pandas())
         except (BadResults, ValueError) as error:
             reason = f"what it gave back is not its rows: {str(error)[:SHOWN]}"
             raise NoAnswer(FORGED, reason) from error

@@ -77,7 +77,7 @@ class Sandbox(contextlib.AbstractContextManager):
         self.notes: list[str] = []
         self.again: set[str] = set()
         self.reasons: dict[str, str] = {}
-        self._laws = {law.name: law for law in plan.settings.own}
+        self._laws = {law.name: law for law in plan.request.user_laws}
         self._tried: dict[Unit, pa.Table] = {}
         # Why nothing more is tried of a law, everywhere or at a place.
         self._given_up: dict[str | tuple[str, ...], NoAnswer] = {}
@@ -133,7 +133,7 @@ class Sandbox(contextlib.AbstractContextManager):
         if self.has(unit):
             table = self.rows(unit)
         else:
-            table = table_of_unit(self.plan.settings, unit)
+            table = table_of_unit(self.plan.request, unit)
         if unit.key in self.again:
             return None
         return pack(table, experiment_of(unit).table)
@@ -152,14 +152,14 @@ class Sandbox(contextlib.AbstractContextManager):
                 self._note_loss(unit, stretch, error)
         if error.fate == KILLED and self._given_up_for(unit) is error:
             self.again.add(unit.key)
-        return lost_table(self.plan.settings, stretch, outcome_of(error))
+        return lost_table(self.plan.request, stretch, outcome_of(error))
 
     def _limit_s(self, unit: Unit, stretch: Unit) -> float:
         """Return the processor time of a stretch."""
         if self.limit_s is not None:
             return self.limit_s
         experiment = experiment_of(unit)
-        ticks = experiment.ticks(self.plan.settings, stretch)
+        ticks = experiment.ticks(self.plan.request, stretch)
         patience_s = STRETCH_S if experiment.is_divisible else UNIT_S
         return patience_s + TICK_S[unit.engine] * ticks
 
@@ -171,7 +171,7 @@ class Sandbox(contextlib.AbstractContextManager):
             # The law could not be compiled, which was said.
             return
         outcome = outcome_of(error)
-        rows = lost_table(self.plan.settings, stretch, outcome).num_rows
+        rows = lost_table(self.plan.request, stretch, outcome).num_rows
         what = f"its {stretch.episodes} episodes are {outcome}" if rows else "it has no rows"
         where = unit.label
         if experiment_of(unit).is_divisible:
@@ -239,7 +239,7 @@ class Sandbox(contextlib.AbstractContextManager):
             compile_ours(self.plan, [unit for unit in self.plan.units if self.has(unit)])
             self._is_compiled = True
         units = [unit for unit in self.plan.units if unit.law == law]
-        return LawProcess(law, self.plan.settings, described(self.plan, units))
+        return LawProcess(law, self.plan.request, described(self.plan, units))
 
     def _note(self, text: str) -> None:
         # It may hold what a law raised.

@@ -54,21 +54,21 @@ class UnitServer:
             BenchError: It is beyond the dialect.
         """
         try:
-            experiment_of(unit).prepare(self.plan.settings, unit)
+            experiment_of(unit).prepare(self.plan.request, unit)
         except BenchError:
             answer_in_fork(lambda: self.try_law(unit), TRIAL_LIMITS, line)
             raise
 
     def try_law(self, unit: Unit) -> bytes:
         """Call a law once; NoAnswer if it raises."""
-        raised = trial_error(self.plan.settings.contender(unit.contender))
+        raised = trial_error(self.plan.request.contender(unit.contender))
         if raised:
             raise NoAnswer(CRASHED, raised)
         return b""
 
     def make_rows(self, unit: Unit) -> bytes:
         """Return the rows of a unit."""
-        return pack(table_of_unit(self.plan.settings, unit), experiment_of(unit).table)
+        return pack(table_of_unit(self.plan.request, unit), experiment_of(unit).table)
 
 
 if __name__ == "__main__":
