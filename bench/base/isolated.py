@@ -390,74 +390,47 @@ def answer_in_fork(
     theirs.close()
     with contextlib.suppress(OSError):
         os.setpgid(pid, pid)
-    fork = _Fork(pid)
+    endings: list[tuple[int, float]] = []
 
-    def has_ended() -> bool:
+    def has_ended(options: int = os.WNOHANG) -> bool:
+        if not endings:
+            ended, status, used = os.wait4(pid, options)
+            if ended:
+                endings.append((os.waitstatus_to_exitcode(status), used.ru_utime + used.ru_stime))
+        return bool(endings)
+
+    def has_no_more_to_say() -> bool:
         if line.is_readable():
             # The process that asks says nothing before it has its answer: this is its end.
             raise EOFError
         look()
-        return fork.look()
+        return has_ended()
 
     answer = b""
     is_late = False
     try:
-        answer = ours.receive(limits.wall_s, has_ended=has_ended)
+        answer = ours.receive(limits.wall_s, has_ended=has_no_more_to_say)
     except TimeoutError:
         is_late = True
     except (EOFError, OSError):
-        fork.wait(ENDING_S)
+        deadline = time.monotonic() + ENDING_S
+        # So that its exit code is its own.
+        while not has_ended() and time.monotonic() < deadline:
+            time.sleep(0.001)
     finally:
         ours.close()
-        code = fork.end()
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(pid, signal.SIGKILL)
+        has_ended(options=0)
     if answer:
         return read_answer(answer)
     if is_late:
         raise NoAnswer(HUNG, describe_wait(limits.wall_s))
-    if code in (-signal.SIGXCPU, -signal.SIGKILL) and fork.used_s >= limits.processor_s:
+    [(code, used_s)] = endings
+    if code in (-signal.SIGXCPU, -signal.SIGKILL) and used_s >= limits.processor_s:
         raise NoAnswer(HUNG, describe_use(limits.processor_s))
     ending = describe_exit(code)
     raise NoAnswer(CRASHED, f"it ended its process, {ending}", ending)
-
-
-class _Fork:
-    """A fork of this process.
-
-    Attributes:
-        pid: Its number, and that of its group.
-        code: Its exit code, once it has ended.
-        has_ended: Whether it has.
-        used_s: Processor time that it has used.
-    """
-
-    def __init__(self, pid: int):
-        self.pid = pid
-        self.code = 0
-        self.has_ended = False
-        self.used_s = 0.0
-
-    def look(self, options: int = os.WNOHANG) -> bool:
-        """Return whether it has ended; options: those of os.wait4."""
-        if not self.has_ended:
-            pid, status, used = os.wait4(self.pid, options)
-            if pid:
-                self.has_ended = True
-                self.code = os.waitstatus_to_exitcode(status)
-                self.used_s = used.ru_utime + used.ru_stime
-        return self.has_ended
-
-    def wait(self, longest_s: float) -> None:
-        """Wait for its end, so that its exit code is its own."""
-        deadline = time.monotonic() + longest_s
-        while not self.look() and time.monotonic() < deadline:
-            time.sleep(0.001)
-
-    def end(self) -> int:
-        """Kill it and what it has forked; return its exit code."""
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(self.pid, signal.SIGKILL)
-        self.look(options=0)
-        return self.code
 
 
 def _answer_and_exit(make: Callable[[], bytes], processor_s: float, line: Line) -> NoReturn:

@@ -13,17 +13,9 @@ import json
 from pathlib import Path
 from typing import Any
 
-from bench.base.errors import BadLaw
-from bench.base.isolated import (
-    FORGED,
-    IsolatedProcess,
-    Line,
-    NoAnswer,
-    Refused,
-    TimeLimits,
-    serve,
-)
+from bench.base.isolated import IsolatedProcess, Line, NoAnswer, TimeLimits, serve
 from bench.law.contenders.law_file import check_answers, check_fields, load_law, read_law
+from bench.law.contenders.law_process import bad_law
 from bench.law.display import Display, Look
 from bench.law.kinds import Law, OnCoordinates, UserFile
 
@@ -33,8 +25,6 @@ waits or is kept waiting by a busy machine."""
 
 TRIAL_LIMITS = TimeLimits(processor_s=5.0, wall_s=10.0)
 """Limits for its law to be called once."""
-
-CONFUSED = "its process did not say what it is; correct what runs on import"
 
 FUNCTIONS = ("law", "law_in", "margin", "coordinate_law_in")
 ELSEWHERE = ("file", "display", "attribution")
@@ -50,13 +40,12 @@ def described(path: Path, text: bytes | None = None, limit_s: float = LOAD_S, wa
     path = Path(path)
     if text is None:
         text = read_law(path)
-    try:
+    why = "it does not load ({}); correct what runs on import"
+    with bad_law(str(path), why, "say what it is"):
         file = UserFile(str(path), text.decode())
-        own = stand_in(_described(path, text, limit_s, waits_s), file)
-        check_fields(own, path)
-    except (LookupError, TypeError, AttributeError, ValueError, RecursionError) as error:
-        raise BadLaw(f"--law {path}: {CONFUSED}") from error
-    return own
+        law = stand_in(_described(path, text, limit_s, waits_s), file)
+        check_fields(law, path)
+    return law
 
 
 @functools.lru_cache(maxsize=32)
@@ -65,18 +54,10 @@ def _described(path: Path, text: bytes, limit_s: float, waits_s: float) -> str:
     request = {"path": str(path), "text": base64.b64encode(text).decode()}
     trial = TimeLimits(min(TRIAL_LIMITS.processor_s, limit_s), min(TRIAL_LIMITS.wall_s, waits_s))
     with IsolatedProcess(__name__) as process:
-        try:
-            fields = process.ask(request, TimeLimits(limit_s, waits_s))
-            # A law that crashes or hangs here is known all the same: its rows will say so.
-            with contextlib.suppress(NoAnswer):
-                process.ask({}, trial)
-        except Refused as mistake:
-            raise BadLaw(str(mistake)) from mistake
-        except NoAnswer as error:
-            if error.fate == FORGED:
-                raise BadLaw(f"--law {path}: {CONFUSED}") from error
-            reason = f"it does not load ({error}); correct what runs on import"
-            raise BadLaw(f"--law {path}: {reason}") from error
+        fields = process.ask(request, TimeLimits(limit_s, waits_s))
+        # A law that crashes or hangs here is known all the same: its rows will say so.
+        with contextlib.suppress(NoAnswer):
+            process.ask({}, trial)
     return fields.decode(errors="replace")
 
 

@@ -1,14 +1,33 @@
 """One question about a user's law, answered in a process of its own (bench/base/isolated.py)."""
 
+import contextlib
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from bench.base.errors import BadLaw, BenchError
 from bench.base.isolated import FORGED, IsolatedProcess, Line, NoAnswer, Refused, TimeLimits, serve
 from bench.law.contenders.law_file import keep_text
 
-CONFUSED = "its process did not give back an answer; correct what runs on import"
+
+@contextlib.contextmanager
+def bad_law(files: str, why: str, duty: str) -> Iterator[None]:
+    """Raise BadLaw in place of what goes wrong when a process of a law is asked.
+
+    Args:
+        files: The laws'.
+        why: What is said if there is no answer, with {} for the reason.
+        duty: What the process did not do if its answer is none.
+    """
+    try:
+        yield
+    except Refused as mistake:
+        raise BadLaw(str(mistake)) from mistake
+    except (NoAnswer, LookupError, TypeError, AttributeError, ValueError, RecursionError) as error:
+        what = f"its process did not {duty}; correct what runs on import"
+        if isinstance(error, NoAnswer) and error.fate != FORGED:
+            what = why.format(error)
+        raise BadLaw(f"--law {files}: {what}") from error
 
 
 def ask(module: str, question: dict, limits: TimeLimits, files: str) -> dict:
@@ -23,16 +42,9 @@ def ask(module: str, question: dict, limits: TimeLimits, files: str) -> dict:
     Errors:
         BadLaw: A mistake that the process names, or it did not return, ended, or gave no answer.
     """
-    try:
-        with IsolatedProcess(module) as process:
-            return dict(json.loads(process.ask(question, limits)))
-    except Refused as mistake:
-        raise BadLaw(str(mistake)) from mistake
-    except NoAnswer as error:
-        what = CONFUSED if error.fate == FORGED else f"{error}; correct the file"
-        raise BadLaw(f"--law {files}: {what}") from error
-    except (ValueError, TypeError, RecursionError) as error:
-        raise BadLaw(f"--law {files}: {CONFUSED}") from error
+    why = "{}; correct the file"
+    with bad_law(files, why, "give back an answer"), IsolatedProcess(module) as process:
+        return dict(json.loads(process.ask(question, limits)))
 
 
 def answer(make: Callable[[dict, Path | None], dict]) -> None:

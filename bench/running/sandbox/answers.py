@@ -17,7 +17,12 @@ from tasks.verdict import CRASHED, OUTCOMES, SETTLED
 MOST_ROWS = 20_000
 """Rows of a unit that has no episodes: the curves of the suite `full` are 15,000."""
 
-WORDS = {"outcome": OUTCOMES, "outcome_beside": OUTCOMES, "cause": CAUSES, "converged": ("yes", "no")}
+WORDS = {
+    "outcome": OUTCOMES,
+    "outcome_beside": OUTCOMES,
+    "cause": CAUSES,
+    "converged": ("yes", "no"),
+}
 """Columns of words -> those that a row may have, or none."""
 
 BY_THE_LAW = ("kp", "kv", "step_s", "converged")
@@ -52,9 +57,7 @@ def check_rows(request: Request, unit: Unit, rows: pd.DataFrame) -> None:
     names = list(experiment.table.key)
     key = rows[names]
     if key.isna().any(axis=None) or key.duplicated().any():
-        raise ValueError(
-            f"two rows have the same {', '.join(names)}, or a row lacks one of them"
-        )
+        raise ValueError(f"two rows have the same {', '.join(names)}, or a row lacks one of them")
     for name, allowed in WORDS.items():
         if name in rows and not rows[name].isin(("", *allowed)).all():
             raise ValueError(f"a row has no known word in {name}")

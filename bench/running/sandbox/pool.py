@@ -30,22 +30,21 @@ SHORT = 1 << 16
 """Bytes of an answer that is no rows."""
 
 
-class LawProcess:
-    """One process of a law.
+class LawProcess(IsolatedProcess):
+    """A process of a law.
 
     Attributes:
         law: Its name.
         request: The plan's.
         plan: The units of the law and what they need, until the process has them.
-        process: The process, and the line to it.
         prepared: Places that the law is compiled for.
     """
 
     def __init__(self, law: str, request: Request, plan: dict):
+        super().__init__(server.__name__)
         self.law = law
         self.request = request
         self.plan: dict | None = plan
-        self.process = IsolatedProcess(server.__name__)
         self.prepared: set[tuple[str, ...]] = set()
 
     def prepare(self, unit: Unit) -> None:
@@ -57,7 +56,7 @@ class LawProcess:
         """
         if self.plan is not None:
             try:
-                self.process.ask({"plan": self.plan}, READY, most=SHORT)
+                self.ask({"plan": self.plan}, READY, most=SHORT)
             except NoAnswer as error:
                 # A process without the law is of no use.
                 error.is_over = True
@@ -65,7 +64,7 @@ class LawProcess:
             self.plan = None
         place = (unit.experiment, unit.contender, unit.engine, unit.selector, unit.arm)
         if place not in self.prepared:
-            self.process.ask({"key": unit.key}, READY, most=SHORT)
+            self.ask({"key": unit.key}, READY, most=SHORT)
             self.prepared.add(place)
 
     def make_rows(self, unit: Unit, stretch: Unit, limit_s: float) -> pa.Table:
@@ -79,7 +78,7 @@ class LawProcess:
         table = experiment_of(unit).table
         most = most_rows(stretch)
         starts = None if stretch is unit else (stretch.first, stretch.count)
-        content = self.process.ask(
+        content = self.ask(
             {"key": unit.key, "starts": starts},
             TimeLimits(limit_s, AND_S + WAITING * limit_s),
             in_fork=True,
@@ -92,10 +91,6 @@ class LawProcess:
             reason = f"what it gave back is not its rows: {str(error)[:SHOWN]}"
             raise NoAnswer(FORGED, reason) from error
         return rows
-
-    def end(self) -> None:
-        """Stop it, wherever it is, and all that the law has started."""
-        self.process.end()
 
 
 class Pool:
