@@ -18,8 +18,9 @@ from bench.base.files import read_json, write_json
 from bench.base.on_first_use import pd
 from bench.base.provenance import ROOT, source_digest
 from bench.experiments import plan as planning
-from bench.experiments.experiment import Settings, Unit, known_experiments, rows_of
+from bench.experiments.experiment import Unit, known_experiments, rows_of
 from bench.experiments.plan import Plan
+from bench.experiments.request import Request
 from bench.experiments.suites import IDEAL_MOTORS
 from bench.experiments.tables.run import MAIN_ENGINE, Run
 from bench.findings import claims
@@ -65,7 +66,8 @@ def plan_of(name: str) -> Plan:
     at_half = name == HALF_STEP
     laws = simulated_contenders()
     drawn = {"dt_s": STEP_S / 2} if at_half else {"seed": int(name)}
-    whole = planning.make(read_json(REFERENCE / "plan.json")["suite"], laws, **drawn)
+    suite = read_json(REFERENCE / "plan.json")["suite"]
+    whole = planning.make(Request(suite, tuple(laws), **drawn))
     wanted = STEPPED if at_half else DRAWN
     units = (one for one in whole.units if one.experiment in wanted and wanted[one.experiment](one))
     return dataclasses.replace(whole, units=tuple(units))
@@ -96,7 +98,7 @@ def at_other_gains() -> list[dict]:
     for path in sorted(GAINS.glob("*/episodes.parquet")):
         gains = Run(path.parent).gains()
         # results/gains has no traces: those that claims look at are made
-        traces = pd.concat([rows_of(Settings(gains=gains), one) for one in units], ignore_index=True)
+        traces = pd.concat([rows_of(Request(gains=gains), one) for one in units], ignore_index=True)
         found.append({**gains._asdict(), "words": words_of(Run(path.parent, {"traces": traces}))})
     return found
 

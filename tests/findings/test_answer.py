@@ -10,7 +10,8 @@ from support.advised import velocities
 from support.user_law import spring_text
 
 from bench.base.errors import NoEvidence
-from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.experiment import Unit, rows_of
+from bench.experiments.request import Request
 from bench.experiments.tables.run import Run, with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.selection.jump import jump
@@ -182,7 +183,7 @@ FASTEST = "mrp"
 
 @functools.cache
 def lagging():
-    settings, laws = Settings("quick"), ("rotation-vector", FASTEST)
+    settings, laws = Request("quick"), ("rotation-vector", FASTEST)
     units = [Unit("velocity", law, "free-body", count=24, horizon_s=2.5) for law in laws]
     units += [
         Unit("velocity", f"{law}@geometric+solve", "arm-regulation", "ur5e", count=2, horizon_s=2.5) for law in laws

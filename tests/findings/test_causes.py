@@ -6,7 +6,8 @@ from support.command_line import bench
 from support.user_law import LAW, law_text
 
 from bench.experiments.command_field import rows
-from bench.experiments.experiment import Settings, Unit
+from bench.experiments.experiment import Unit
+from bench.experiments.request import Request
 from bench.experiments.tables.run import Run, with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import why
@@ -89,7 +90,7 @@ def field_of(folder, text):
     own = load_law(path)
     [one] = contenders_of(own)
     unit = Unit("command-field", one.name, "free-body", engine="ideal-held", count=1, total=1)
-    found = pd.DataFrame(rows(Settings(own=(own,)), unit))
+    found = pd.DataFrame(rows(Request(laws=(one,)), unit))
     return with_contender(found)
 
 

@@ -75,7 +75,7 @@ def found(tmp_path_factory):
         plan = plan_of([one])
         for unit in plan.units:
             if unit.experiment == "command-field" or (unit.selector == "uniform" and FAULTY[name][2] & OF_EPISODES):
-                parts[one.name, unit.experiment].append(rows_of(plan.settings, unit))
+                parts[one.name, unit.experiment].append(rows_of(plan.request, unit))
         [field] = parts[one.name, "command-field"]
         moves = (one.name, "free-body") in parts
         said = judgement(one, parts).said if moves else sentences(field, one.regulator.property)

@@ -7,7 +7,7 @@ import pytest
 
 from bench.cli.details import robustness as details
 from bench.experiments import plan
-from bench.experiments.choice import Choice
+from bench.experiments.request import Request
 from bench.experiments.tables.run import VARIABLE, run_in, with_contender
 from bench.findings import perturbed, why
 from bench.findings.perturbed import Way
@@ -31,8 +31,8 @@ def test_cards_of_laws_with_memory_say_how_far_they_keep_to_their_way(law):
 @pytest.fixture(scope="module", autouse=True)
 def small_run(tmp_path_factory):
     """Results with two starts a level of five laws; the pages read those of this module's folder."""
-    choice = Choice(axes=robustness.AXES)
-    made = plan.make("quick", [find_contender(law) for law in LAWS], choice, count=STARTS)
+    laws = tuple(find_contender(law) for law in LAWS)
+    made = plan.make(Request("quick", laws, count=STARTS, axes=robustness.AXES))
     folder = tmp_path_factory.mktemp("robustness") / "run"
     run.run(made, folder)
     with pytest.MonkeyPatch.context() as patch:

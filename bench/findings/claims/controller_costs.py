@@ -126,7 +126,7 @@ def _worst(numbers: pd.Series) -> float:
 def _pairs(run: Run, found: pd.DataFrame, arm: str, start_set: str, controller: str = BY_EULER) -> pd.DataFrame:
     """Episodes by a controller and by the law on R from the same starts of a set."""
     rows = found[(found["arm"] == arm) & (found["start_set"] == start_set)]
-    least = {part.start_set: part.size or 0 for part in SUITES["quick"].on_arms.slices}  # of the smallest suite
+    least = SUITES["quick"].sections["arm"]["sizes"]  # of the smallest suite
     parts = []
     for one in (controller, ON_MATRIX):
         own = choose_rows(rows, words(one, tasks.arm(arm).joints))

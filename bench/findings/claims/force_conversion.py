@@ -29,7 +29,7 @@ def c21(run: Run) -> tuple[Word, Evidence]:
     looped = run.table("compliance", task=PROBE, controller="hybrid", representation=COORDINATES)
     looped = looped[(looped["outcome"] == "done") & looped["work_residual"].notna()]
     looped = require_rows(looped, f"work residual of {PROBE} by hybrid/{COORDINATES}")
-    poses, least = looped["pose"].nunique(), SUITES["quick"].in_contact.redundant_poses or 0
+    poses, least = looped["pose"].nunique(), SUITES["quick"].sections["contact"]["redundant_poses"]
     if run.has_folder and poses < least:
         raise NoEvidence(
             f"hybrid/{COORDINATES} ran {PROBE} at {poses} poses of the {least} that the claim "
