@@ -207,18 +207,19 @@ def test_run_of_two_starts_a_set_judges_no_claim_about_episodes(tmp_path):
 READ = """
 import sys
 from pathlib import Path
-from bench.experiments.tables import read
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.experiment import known_tables
 
+run = Run(RESULTS / "reference")
 for name in known_tables():
-    read.table(RESULTS / "reference", name)
+    run.table(name)
 """
 JUDGED = """
 from bench.findings import claims
 
 for paper in claims.PAPERS:
-    claims.judge_possible(claims.Results(RESULTS / "reference"), paper)
+    claims.judge_possible(run, paper)
 """
 SHOWN = """
 print(*(name for name in sys.modules if name.startswith(("bench.engines", "numba", "llvmlite"))))
