@@ -19,8 +19,9 @@ from pathlib import Path
 from bench.base.errors import BadResults
 from bench.base.on_first_use import pd
 from bench.base.provenance import read_provenance
+from bench.experiments.columns import WORD
 from bench.experiments.tables.kept_laws import kept_laws
-from bench.experiments.tables.schema import RESULTS, table_of
+from bench.experiments.tables.schema import RESULTS, declared_table
 from bench.law.kinds import Law
 
 VARIABLE = "ORIENTATION_BENCH_RESULTS"
@@ -84,10 +85,12 @@ def table(path: Path, name: str) -> pd.DataFrame:
     from bench.experiments.tables.store import read
 
     frame = read(path, name)
-    for column in table_of(name).schema():  # numbers may be missing: a metric may be newer than the run
-        is_word = column.name in frame and isinstance(frame[column.name].dtype, pd.CategoricalDtype)
-        if is_word != str(column.type).startswith("dictionary"):
-            raise BadResults(f"{path}: table {name} has no column {column.name} as ours is; run again")
+    declared = {column.name for column in declared_table(name).columns() if column.type == WORD}
+    is_word = {str(column): isinstance(kind, pd.CategoricalDtype) for column, kind in frame.dtypes.items()}
+    found = {column for column in is_word if is_word[column]}
+    # Numbers may be missing: a metric may be newer than the run.
+    for column in sorted(declared ^ found):
+        raise BadResults(f"{path}: table {name} has no column {column} as ours is; run again")
     return with_contender(frame) if {"controller", "regulator"} & {*frame} else frame
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -12,6 +12,7 @@ from bench.base.on_first_use import pd
 from bench.experiments.tables.read import FREE_BODY, converged
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims import places
+from bench.findings.claims.once import once_a_run
 from bench.findings.claims.places import EXACT_RAD
 from bench.findings.claims.standing import (
     ORDERED,
@@ -24,7 +25,7 @@ from bench.findings.claims.standing import (
 )
 from bench.findings.claims.tables import Results, settled, settling_times, some
 from bench.findings.perturbed import DETOUR
-from bench.findings.start_sets import describe_lacking, least_starts
+from bench.findings.start_sets import least_starts
 from bench.law.attribution import YOURS
 from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders
@@ -82,21 +83,93 @@ class Adequacy(NamedTuple):
 
 def every(results: Results, engine: str) -> list[Adequacy]:
     """Return all laws that have a suite's uniform starts, 180° rotations and a cost, the fewest operations first."""
+    names = list_complete(results, engine)
+    found = [measure(results, engine, name) for name in names]
+    return sorted(found, key=lambda law: sum(law.cost))
+
+
+class Starts(NamedTuple):
+    """Starts of one law, an element a start: the columns that its tests need.
+
+    start_set: names. is_lost: whether it does not settle. is_exact: whether it is on a boundary. time [s]: of settling,
+    infinite if it does not. path: over the shortest one.
+    """
+
+    start_set: np.ndarray
+    is_lost: np.ndarray
+    is_exact: np.ndarray
+    time: np.ndarray
+    path: np.ndarray
+
+    def among(self, is_chosen: np.ndarray) -> Starts:
+        """Return some of the starts."""
+        return Starts(*(column[is_chosen] for column in self))
+
+
+@once_a_run
+def starts_of_laws(results: Results, engine: str) -> dict[str, Starts]:
+    """Return the converged starts that C17 and C27 are about, of each law that has as many as a claim needs."""
     runs = results.table("episodes", **FREE_BODY, task="free-body", engine=engine)
     runs = runs[runs["start_set"].isin(("uniform", *DIRECTED))]
-    least, by_law = least_starts(engine, "beyond"), runs.groupby("contender", observed=True)
-    lacking = [name for name, own in by_law if describe_lacking(own, least, "uniform", "half-turn")]
-    runs = runs[~runs["contender"].isin(lacking if results.folder else [])]
-    runs = some(converged(runs), f"law with the starts that a claim needs by {engine}").reset_index(drop=True)
-    runs = runs.assign(lost=~settled(runs), exact=exact(runs))
-    costs = results.table("costs", **FREE_BODY, branch="typical")
-    priced = {str(name): rows for name, rows in costs.groupby("contender", observed=True)}
-    found = [
-        _row(str(name), own, priced[str(name)], tuple(results.spun(str(name), engine)))
-        for name, own in runs.groupby("contender", observed=True)
-        if name in priced and {"uniform", "half-turn"} <= set(own["start_set"])
-    ]
-    return sorted(found, key=lambda one: sum(one.cost))
+    if results.folder:
+        least = least_starts(engine, "beyond")
+        lacking = find_lacking(runs, least, "uniform", "half-turn")
+        runs = runs[~runs["contender"].isin(lacking)]
+    runs = some(converged(runs), f"law with the starts that a claim needs by {engine}")
+    starts = Starts(
+        start_set=runs["start_set"].astype(object).to_numpy(),
+        is_lost=~settled(runs).to_numpy(),
+        is_exact=exact(runs).to_numpy(),
+        time=settling_times(runs),
+        path=runs["path_ratio"].to_numpy(float),
+    )
+    number, names = pd.factorize(runs["contender"], sort=True)
+    return {str(name): starts.among(number == place) for place, name in enumerate(names)}
+
+
+def find_lacking(runs: pd.DataFrame, least: Mapping[str, int], *start_sets: str) -> list[str]:
+    """Return the laws with fewer starts of some set than they need."""
+    found = runs.groupby(["contender", "start_set"], observed=True)["start_id"].nunique()
+    counts = found.unstack(fill_value=0).reindex(columns=list(start_sets), fill_value=0)
+    needed = [least.get(name, 0) for name in start_sets]
+    is_lacking = (counts < needed).any(axis=1)
+    return counts.index[is_lacking].astype(str).tolist()
+
+
+def list_complete(results: Results, engine: str) -> list[str]:
+    """Return the laws that have uniform starts, 180° rotations and a cost."""
+    starts, priced = starts_of_laws(results, engine), operations_of_laws(results)
+    found = []
+    for name in starts:
+        start_sets = set(starts[name].start_set.tolist())
+        if name in priced and {"uniform", "half-turn"} <= start_sets:
+            found.append(name)
+    return found
+
+
+@once_a_run
+def measure(results: Results, engine: str, name: str) -> Adequacy:
+    """Return what is measured of a law that `list_complete` has."""
+    starts = starts_of_laws(results, engine)[name]
+    is_uniform = starts.start_set == "uniform"
+    uniform, directed = starts.among(is_uniform), starts.among(~is_uniform)
+    plain = starts.among(is_uniform | (starts.start_set == "half-turn"))
+    paths = plain.path[~np.isnan(plain.path)]
+    total, goal = operations_of_laws(results)[name]
+    return Adequacy(
+        name,
+        n=len(uniform.time),
+        settled=float(1.0 - uniform.is_lost.mean()),
+        pace=quantile_estimate(uniform.time, NEARLY_ALL),
+        directed=int((~directed.is_exact).sum()),
+        lost=int((directed.is_lost & ~directed.is_exact).sum()),
+        exact=int(directed.is_exact.sum()),
+        lost_exact=int((directed.is_lost & directed.is_exact).sum()),
+        spun=tuple(results.spun(name, engine)),
+        detour=float(paths.max()) if len(paths) else np.nan,
+        cost=total.without(goal),
+        rows=len(starts.time),
+    )
 
 
 def held(results: Results, noise_rad: float) -> dict[str, tuple[int, int]]:
@@ -107,54 +180,55 @@ def held(results: Results, noise_rad: float) -> dict[str, tuple[int, int]]:
     return {str(name): (int(lost), int(of)) for name, lost, of in counts.itertuples()}
 
 
-def _row(name: str, own: pd.DataFrame, costs: pd.DataFrame, spun: tuple[Spun, ...]) -> Adequacy:
-    is_uniform = own["start_set"] == "uniform"
-    uniform, directed = own[is_uniform], own[~is_uniform]
-    plain = own[is_uniform | (own["start_set"] == "half-turn")]
-    return Adequacy(
-        name,
-        len(uniform),
-        float(1.0 - uniform["lost"].mean()),
-        quantile_estimate(settling_times(uniform), NEARLY_ALL),
-        int((~directed["exact"]).sum()),
-        int((directed["lost"] & ~directed["exact"]).sum()),
-        int(directed["exact"].sum()),
-        int((directed["lost"] & directed["exact"]).sum()),
-        spun,
-        float(plain["path_ratio"].max()),
-        tallied(costs, with_goal=False),
-        len(own),
-    )
-
-
 def exact(runs: pd.DataFrame) -> pd.Series:
     """Tell whether a start is at 180°, a pole or a wrap to EXACT_RAD, or its goal on a pole."""
     distance = places.boundary_distance(runs)
     at_goal = distance["half_turn"].where(runs["angle0_rad"] > 1, np.pi)
     found = (distance["pole"] <= EXACT_RAD) | (distance["wrap"] <= EXACT_RAD) | (at_goal <= EXACT_RAD)
-    goals = runs.drop_duplicates(list(places.GOAL_QUAT))
-    to_pole = goals[list(places.GOAL_QUAT)].assign(far=places.goal_to_pole(goals))
-    far = runs[list(places.GOAL_QUAT)].merge(to_pole, how="left", on=list(places.GOAL_QUAT))["far"]
-    return found | (far.to_numpy() <= EXACT_RAD)
+    return found | (places.goal_to_pole(runs) <= EXACT_RAD)
 
 
 def of_stage(rows: pd.DataFrame, stage: str) -> Operations:
     """Flops and transcendental calls of one stage of a contender's rows."""
-    own = rows[rows["stage"] == stage].iloc[0]
-    return Operations(int(own["flops"]), int(sum(own[name] for name in CALLS)))
+    return _list_operations(rows[rows["stage"] == stage])[0]
 
 
 def tallied(rows: pd.DataFrame, with_goal: bool) -> Operations:
     """Flops and transcendental calls of one contender's rows, a row a stage."""
     total, goal = of_stage(rows, "total"), of_stage(rows, "goal")
-    return total if with_goal else Operations(total.flops - goal.flops, total.calls - goal.calls)
+    return total if with_goal else total.without(goal)
 
 
+def _list_operations(rows: pd.DataFrame) -> list[Operations]:
+    """Return the flops and transcendental calls of each row of costs.parquet."""
+    calls = rows[list(CALLS)].to_numpy().sum(axis=1)
+    return [Operations(*pair) for pair in zip(rows["flops"].tolist(), calls.tolist(), strict=True)]
+
+
+class Stages(NamedTuple):
+    """Operations of a law: of the whole tick, and of the goal's stage in it."""
+
+    total: Operations
+    goal: Operations
+
+
+@once_a_run
+def operations_of_laws(results: Results) -> dict[str, Stages]:
+    """Return the operations of each law of the free body, typical branch, by its name in alphabetical order."""
+    rows = results.table("costs", **FREE_BODY, branch="typical")
+    laws, stages = (rows[column].astype(str).tolist() for column in ("contender", "stage"))
+    found: dict[tuple[str, str], Operations] = {}
+    for law, stage, operations in zip(laws, stages, _list_operations(rows), strict=True):
+        found.setdefault((law, stage), operations)
+    return {law: Stages(found[law, "total"], found[law, "goal"]) for law in sorted(set(laws))}
+
+
+@once_a_run
 def ledger(results: Results) -> Ledger:
     """Return the cost of laws of the free body, typical branch, without the goal's stage and with it."""
-    rows = results.table("costs", **FREE_BODY, branch="typical")
-    by_law = {str(name): own for name, own in rows.groupby("contender", observed=True)}
-    alone, whole = ({name: tallied(own, goal) for name, own in by_law.items()} for goal in (False, True))
+    by_law = operations_of_laws(results)
+    alone = {name: stages.total.without(stages.goal) for name, stages in by_law.items()}
+    whole = {name: stages.total for name, stages in by_law.items()}
     times = times_of(results.timings())
     return Ledger(times, (alone, whole), price_of_a_call(times, whole))
 

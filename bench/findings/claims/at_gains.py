@@ -7,6 +7,7 @@ import contextlib
 import functools
 import math
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from bench.experiments.tables.schema import RESULTS
@@ -40,8 +41,13 @@ def other_gains(results: Results) -> list[Results]:
         return list(results.others)
     if results.folder is None:
         return []
-    folders = [REFERENCE, *(path.parent for path in sorted(GAINS.glob("*/episodes.parquet")))]
-    return [Results(folder) for folder in folders]
+    return [_run_of(REFERENCE), *(_run_of(path.parent) for path in sorted(GAINS.glob("*/episodes.parquet")))]
+
+
+@functools.cache
+def _run_of(folder: Path) -> Results:
+    """Return the run in a folder, one for all claims, so that what they share is computed once."""
+    return Results(folder)
 
 
 def at_every_gain(decide: Callable) -> Callable:

@@ -5,13 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from bench.base.on_first_use import pd
-from bench.engines.metrics.contact_force import WINDOW_S
 from bench.findings.amounts import capitalize, count, count_of
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, by_papers_form, paired
 from bench.findings.claims.tables import Results, evidence, percent, some
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, word_of
-from tasks.contact_rest import HORIZON_S
+from tasks.contact_rest import HORIZON_S, WINDOW_S
 
 # |beta| of the hand's frame from which on the two must differ: its x then leans to z as much as it lies level.
 TURNED_DEG = 45.0

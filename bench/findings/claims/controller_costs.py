@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 import tasks
 from bench.base.on_first_use import pd
-from bench.experiments.probes.arms import BY_EULER, CURVES, INVERSES, ON_MATRIX, TASK
+from bench.experiments.probe_values.arms import BY_EULER, CURVES, INVERSES, ON_MATRIX, TASK
 from bench.experiments.suites import SUITES
 from bench.experiments.tables.read import chosen
 from bench.findings.amounts import count_of, join_words, part_of

@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 
 from bench.base.on_first_use import pd
-from bench.experiments.probes import arms, coordinates
+from bench.experiments.probe_values import arms, coordinates
 from bench.experiments.tables.read import FREE_BODY
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.amounts import count_of, join_words, part_of

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from bench.experiments.probes import coordinates
+from bench.experiments.probe_values import coordinates
 from bench.experiments.suites import SUITES
 from bench.findings.amounts import count_of
 from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, ROUNDINGS

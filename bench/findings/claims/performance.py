@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from bench.base.on_first_use import pd
-from bench.experiments.probes.turns import SPEED
-from bench.experiments.tables.statistics import bootstrap, quantile, quantile_estimate
+from bench.experiments.probe_values.turns import SPEED
+from bench.experiments.tables.statistics import (
+    Estimate,
+    percentile_estimate,
+    quantile,
+    quantile_estimate,
+    resampled_quantile,
+)
 from bench.findings.amounts import capitalize, count_of, join_words, part_of
 from bench.findings.claims import adequacy, tables
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy, is_without_memory, whose
@@ -109,10 +113,10 @@ def c12(results: Results) -> tuple[Word, Evidence]:
 def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
     """Return the three laws against the three tests of performance and the test of cost."""
     linear = closed_form.linear_settling(*results.gains())
-    by_name = {one.name: one for one in adequacy.every(results, engine)}
-    if not set(THREE) <= set(by_name):
+    if not set(THREE) <= set(adequacy.list_complete(results, engine)):
         raise NoEvidence(f"not all of {', '.join(THREE)} ran by {engine}: run a suite without narrowing it")
-    three, known = [by_name[name] for name in THREE], adequacy.of_three(results)
+    three = [adequacy.measure(results, engine, name) for name in THREE]
+    known = adequacy.of_three(results)
     every = {name: adequacy.examine(law, known, linear, {}) for name, law in zip(NAMES, three, strict=True)}
     asked = {name: tested.among(adequacy.BOTH) for name, tested in every.items()}
     adequate = [name for name, tested in asked.items() if tested.passes]
@@ -310,22 +314,24 @@ def c31(results: Results) -> tuple[Word, Evidence]:
     )
 
 
-def feedback_gain(results: Results) -> Any:
+def feedback_gain(results: Results) -> Estimate:
     """Return how many times as long 99 % of the starts take with the rotation-matrix law, at the run's gains."""
     matrix, _, feedback = _of_the_three(results)
     return _gain(tables.settling_times(feedback), tables.settling_times(matrix))
 
 
-def _gain(own: np.ndarray, other: np.ndarray) -> Any:
+def _gain(own: np.ndarray, other: np.ndarray) -> Estimate:
     """Return the other's time in which nearly all settle over its own; resampled by starts."""
+    quantiles = np.array([quantile(times, NEARLY_ALL) for times in (own, other)])
+    resampled = np.stack([resampled_quantile(times, NEARLY_ALL) for times in (own, other)])
+    return percentile_estimate(_ratio(*quantiles), _ratio(*resampled))
 
-    def ratio(drawn: np.ndarray, axis: Sequence[float] | np.ndarray) -> Any:
-        quantiles = quantile(drawn, NEARLY_ALL, axis=-2)
-        with np.errstate(invalid="ignore"):
-            ratios = quantiles[..., 1] / quantiles[..., 0]
-        return np.where(np.isnan(ratios), 1.0, ratios)  # neither settles
 
-    return bootstrap(np.stack([own, other], axis=1), ratio)
+def _ratio(own: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Return other / own, 1 where neither settles: both are infinite there."""
+    with np.errstate(invalid="ignore"):
+        ratios = other / own
+    return np.where(np.isnan(ratios), 1.0, ratios)
 
 
 @claim("C35")

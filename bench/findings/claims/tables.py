@@ -66,7 +66,7 @@ class Results:
         self.others = others
         self.chosen: list[tuple[str, str]] = []
         self._chosen: dict[tuple, pd.DataFrame] = {}
-        self._spun: dict[tuple[str, str], list[Spun]] = {}
+        self._spun: dict[tuple[str, Gains, str], list[Spun]] = {}
 
     def table(self, name: str, **words: str) -> pd.DataFrame:
         """Rows of one table that have these words, chosen once and shared; there may be none."""
@@ -136,14 +136,15 @@ class Results:
 
         There are none where no map has the law with these gains by this engine.
         """
-        from bench.findings.maps import count_in, counted, spun
+        from bench.findings.maps import counted, list_spun, spun_in
 
-        if (law, engine) not in self._spun:
-            if "counted" not in self.frames:
-                given = self.frames.get("map")
-                self.frames["counted"] = count_in(self.maps_folder) if given is None else counted(given)
-            self._spun[law, engine] = spun(self.frames["counted"], law, self.gains(), engine)
-        return self._spun[law, engine]
+        if not self._spun:
+            given = self.frames.get("map")
+            if "counted" in self.frames:
+                self._spun = list_spun(self.frames["counted"])
+            else:
+                self._spun = spun_in(self.maps_folder) if given is None else list_spun(counted(given))
+        return self._spun.get((law, self.gains(), engine), [])
 
     def timings(self) -> pd.DataFrame:
         """Time per tick of laws alone, on every machine that was timed, a column `machine` added; maybe empty."""

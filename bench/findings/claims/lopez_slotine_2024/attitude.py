@@ -3,7 +3,7 @@
 import math
 
 from bench.base.on_first_use import pd
-from bench.experiments.probes import sliding
+from bench.experiments.probe_values import sliding
 from bench.experiments.tables import read
 from bench.findings.amounts import count_of
 from bench.findings.claims import places
