@@ -9,9 +9,10 @@ import numpy as np
 import pandas as pd
 
 from bench.base.errors import NoTable
-from bench.experiments.tables.read import MARKS, with_contender
+from bench.experiments.columns import CONTENDER_KEY
+from bench.experiments.tables.read import number_rows, with_contender
 from bench.experiments.tables.statistics import TAIL, Estimate
-from bench.experiments.tables.store import read
+from bench.experiments.tables.store import read, read_arrow
 from bench.law.inputs import Gains
 
 SPEEDS = ["least_speed", "most_speed"]
@@ -73,18 +74,39 @@ def counted(rows: pd.DataFrame) -> pd.DataFrame:
 
 def _sum(cells: pd.DataFrame) -> pd.DataFrame:
     """Return a row a law, gains, engine and speed: its starts, and how many settle, do not converge, and are lost."""
-    found = cells.groupby(KEY, sort=False, observed=True)[NUMBERS].sum().reset_index()
+    first, number = number_rows(cells, KEY)
+    sums = {name: np.bincount(number, cells[name], len(first)).astype(int) for name in NUMBERS}
+    found = cells[KEY].iloc[first].reset_index(drop=True).assign(**sums)
     return found.assign(lost=found["starts"] - found["settled"] - found["unconverged"])
 
 
-COUNTED = (*MARKS, "row", "kp", "kv", "engine", *SPEEDS, *NUMBERS)
-"""Columns of a map that counts are made of; it has some of MARKS."""
+OF_CELLS = [*CONTENDER_KEY, "row", "kp", "kv", "engine", *SPEEDS]
+"""Columns that consecutive cells of one count share."""
+
+
+def read_cells(path: Path) -> pd.DataFrame:
+    """Return the rows of a map's file that stand after one another and share OF_CELLS as one row, NUMBERS summed.
+
+    A map has a million rows, and a law's cells stand together: so only a few thousand rows become a data frame.
+    """
+    table = read_arrow(path, "map", [*OF_CELLS, *NUMBERS]).unify_dictionaries().combine_chunks()
+    columns = {name: table.column(name).combine_chunks() for name in table.column_names}
+    is_first = np.zeros(table.num_rows, dtype=bool)
+    is_first[:1] = True
+    for name in OF_CELLS:
+        column = columns[name]
+        values = (column.indices if hasattr(column, "indices") else column).to_numpy()
+        is_first[1:] |= values[1:] != values[:-1]
+    first = is_first.nonzero()[0]
+    rows = table.take(first).to_pandas(ignore_metadata=True)
+    sums = {name: np.add.reduceat(columns[name].to_numpy(), first) for name in NUMBERS}
+    return rows.assign(**sums)
 
 
 @functools.lru_cache(maxsize=1)
 def count_in(folder: Path) -> pd.DataFrame:
     """Return `counted` of the maps in a folder, once for the runs at all gains; NoTable: there is no map."""
-    counts = [counted(read(path.parent, "map", COUNTED)) for path in _list_maps(folder)]
+    counts = [counted(read_cells(path)) for path in _list_maps(folder)]
     return _sum(pd.concat(counts, ignore_index=True))
 
 

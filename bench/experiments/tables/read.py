@@ -12,9 +12,11 @@ the words FREE_BODY.
 from __future__ import annotations
 
 import functools
-import operator
 import os
+from collections.abc import Sequence
 from pathlib import Path
+
+import numpy as np
 
 from bench.base.errors import BadResults
 from bench.base.on_first_use import pd
@@ -77,15 +79,16 @@ def own_laws(run: Path | None = None) -> tuple[Law, ...]:
 
 
 @functools.cache
-def table(path: Path, name: str) -> pd.DataFrame:
-    """Return the whole table `name` of the folder `path`. Copy the table before you change it.
+def table(path: Path, name: str, columns: tuple[str, ...] | None = None) -> pd.DataFrame:
+    """Return the table `name` of the folder `path`, all its columns if none is named. Copy it before you change it.
 
     If the rows of the table belong to laws, the column `contender` has the name of the law.
     """
     from bench.experiments.tables.store import read
 
-    frame = read(path, name)
+    frame = read(path, name, columns)
     declared = {column.name for column in declared_table(name).columns() if column.type == WORD}
+    declared.intersection_update(columns or declared)
     is_word = {str(column): isinstance(kind, pd.CategoricalDtype) for column, kind in frame.dtypes.items()}
     found = {column for column in is_word if is_word[column]}
     # Numbers may be missing: a metric may be newer than the run.
@@ -97,23 +100,59 @@ def table(path: Path, name: str) -> pd.DataFrame:
 def with_contender(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the frame with `contender` added, as the command line writes it; each combination is named only once."""
     columns = [name for name in MARKS if name in frame]
-    words = frame[columns]
-    few = words.drop_duplicates().astype(str)
+    first, number = number_rows(frame, columns)
+    few = frame[columns].iloc[first].astype(str)
     names = few[columns[0]]
     for name in columns[1:]:
         names = names.where(few[name] == "", names + MARKS[name] + few[name])
-    number = words.groupby(columns, observed=True, sort=False).ngroup()
-    return frame.assign(contender=names.astype("category").array.take(number.to_numpy()))
+    return frame.assign(contender=names.astype("category").array.take(number))
+
+
+def number_rows(frame: pd.DataFrame, columns: Sequence[str]) -> tuple[np.ndarray, np.ndarray]:
+    """Return the places of the first rows of each combination of values, ascending, and each row's number of these."""
+    combined = np.zeros(len(frame), dtype=np.int64)
+    for name in columns:
+        codes, values = pd.factorize(frame[name])
+        combined = combined * (len(values) + 1) + codes + 1
+    _, first, number = np.unique(combined, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    return first[order], place[number]
 
 
 def chosen(frame: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
     """Return the rows whose columns have these words, renumbered from 0, with only the words that occur."""
+    frame = matching(frame, words)
+    of_words = [str(column) for column, kind in frame.dtypes.items() if isinstance(kind, pd.CategoricalDtype)]
+    return frame.assign(**{column: occurring(frame[column].array) for column in of_words})
+
+
+def matching(frame: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
+    """Return the rows whose columns have these words, renumbered from 0; columns may know words that do not occur."""
+    if words:
+        frame = frame[has_words(frame, words)]
+    return frame.reset_index(drop=True)
+
+
+def has_words(frame: pd.DataFrame, words: dict[str, str]) -> np.ndarray:
+    """Return whether each row has these words in these columns; BadResults: there is no such column."""
     unknown = next((column for column in words if column not in frame), None)
     if unknown is not None:
         raise BadResults(f"no column '{unknown}' in this table; it has: {', '.join(map(str, frame.columns))}")
-    if words:  # all columns are taken once, not once a word
-        frame = frame[functools.reduce(operator.and_, (frame[column] == word for column, word in words.items()))]
-    frame = frame.reset_index(drop=True)
-    for column in frame.select_dtypes("category"):
-        frame[column] = frame[column].cat.remove_unused_categories()
-    return frame
+    has = np.ones(len(frame), dtype=bool)
+    for column, word in words.items():
+        has &= (frame[column] == word).to_numpy(bool)
+    return has
+
+
+def occurring(words: pd.Categorical) -> pd.Categorical:
+    """Return a column of words with only those categories that occur in it."""
+    is_used = np.zeros(len(words.categories) + 1, dtype=bool)
+    is_used[words.codes] = True  # a word that is missing has code -1, the last place
+    if is_used[:-1].all():
+        return words
+    code = np.cumsum(is_used) - 1
+    code[-1] = -1
+    categories = words.categories[is_used[:-1]]
+    return pd.Categorical.from_codes(code[words.codes], categories, ordered=words.ordered, validate=False)

@@ -25,7 +25,7 @@ from bench.findings.claims.standing import (
 )
 from bench.findings.claims.tables import Results, settled, settling_times, some
 from bench.findings.perturbed import DETOUR
-from bench.findings.start_sets import least_starts
+from bench.findings.start_sets import count_starts, least_starts
 from bench.law.attribution import YOURS
 from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders
@@ -81,10 +81,18 @@ class Adequacy(NamedTuple):
     rows: int
 
 
-def every(results: Results, engine: str) -> list[Adequacy]:
-    """Return all laws that have a suite's uniform starts, 180° rotations and a cost, the fewest operations first."""
-    names = list_complete(results, engine)
-    found = [measure(results, engine, name) for name in names]
+def every(results: Results, engine: str, laws: tuple[str, ...] = ()) -> list[Adequacy]:
+    """Return the laws that have a suite's uniform starts, 180° rotations and a cost, the fewest operations first.
+
+    laws: those that are looked at; all if none is named.
+    """
+    starts, operations = starts_of_laws(results, engine, laws), operations_of_laws(results)
+    found = []
+    for name in starts:
+        start_sets = set(starts[name].start_set.tolist())
+        if name in operations and {"uniform", "half-turn"} <= start_sets:
+            spun = tuple(results.spun(name, engine))
+            found.append(measure(name, starts[name], operations[name], spun))
     return sorted(found, key=lambda law: sum(law.cost))
 
 
@@ -107,9 +115,11 @@ class Starts(NamedTuple):
 
 
 @once_a_run
-def starts_of_laws(results: Results, engine: str) -> dict[str, Starts]:
+def starts_of_laws(results: Results, engine: str, laws: tuple[str, ...]) -> dict[str, Starts]:
     """Return the converged starts that C17 and C27 are about, of each law that has as many as a claim needs."""
     runs = results.table("episodes", **FREE_BODY, task="free-body", engine=engine)
+    if laws:
+        runs = runs[runs["contender"].isin(laws)]
     runs = runs[runs["start_set"].isin(("uniform", *DIRECTED))]
     if results.folder:
         least = least_starts(engine, "beyond")
@@ -129,33 +139,23 @@ def starts_of_laws(results: Results, engine: str) -> dict[str, Starts]:
 
 def find_lacking(runs: pd.DataFrame, least: Mapping[str, int], *start_sets: str) -> list[str]:
     """Return the laws with fewer starts of some set than they need."""
-    found = runs.groupby(["contender", "start_set"], observed=True)["start_id"].nunique()
-    counts = found.unstack(fill_value=0).reindex(columns=list(start_sets), fill_value=0)
-    needed = [least.get(name, 0) for name in start_sets]
-    is_lacking = (counts < needed).any(axis=1)
-    return counts.index[is_lacking].astype(str).tolist()
-
-
-def list_complete(results: Results, engine: str) -> list[str]:
-    """Return the laws that have uniform starts, 180° rotations and a cost."""
-    starts, priced = starts_of_laws(results, engine), operations_of_laws(results)
+    number, names = pd.factorize(runs["contender"])
+    start_set, start_id = runs["start_set"].array, runs["start_id"].array
     found = []
-    for name in starts:
-        start_sets = set(starts[name].start_set.tolist())
-        if name in priced and {"uniform", "half-turn"} <= start_sets:
-            found.append(name)
+    for place, name in enumerate(names):
+        is_of_law = number == place
+        counts = count_starts(pd.DataFrame({"start_set": start_set[is_of_law], "start_id": start_id[is_of_law]}))
+        if any(counts[word] < least.get(word, 0) for word in start_sets):
+            found.append(str(name))
     return found
 
 
-@once_a_run
-def measure(results: Results, engine: str, name: str) -> Adequacy:
-    """Return what is measured of a law that `list_complete` has."""
-    starts = starts_of_laws(results, engine)[name]
+def measure(name: str, starts: Starts, operations: Stages, spun: tuple[Spun, ...]) -> Adequacy:
+    """Return what is measured of a law that has uniform starts and 180° rotations."""
     is_uniform = starts.start_set == "uniform"
     uniform, directed = starts.among(is_uniform), starts.among(~is_uniform)
     plain = starts.among(is_uniform | (starts.start_set == "half-turn"))
     paths = plain.path[~np.isnan(plain.path)]
-    total, goal = operations_of_laws(results)[name]
     return Adequacy(
         name,
         n=len(uniform.time),
@@ -165,9 +165,9 @@ def measure(results: Results, engine: str, name: str) -> Adequacy:
         lost=int((directed.is_lost & ~directed.is_exact).sum()),
         exact=int(directed.is_exact.sum()),
         lost_exact=int((directed.is_lost & directed.is_exact).sum()),
-        spun=tuple(results.spun(name, engine)),
+        spun=spun,
         detour=float(paths.max()) if len(paths) else np.nan,
-        cost=total.without(goal),
+        cost=operations.total.without(operations.goal),
         rows=len(starts.time),
     )
 

@@ -41,7 +41,9 @@ def other_gains(results: Results) -> list[Results]:
         return list(results.others)
     if results.folder is None:
         return []
-    return [_run_of(REFERENCE), *(_run_of(path.parent) for path in sorted(GAINS.glob("*/episodes.parquet")))]
+    folders = [REFERENCE, *(path.parent for path in sorted(GAINS.glob("*/episodes.parquet")))]
+    own = results.folder.resolve()
+    return [results if folder == own and results.is_as_stored else _run_of(folder) for folder in folders]
 
 
 @functools.cache

@@ -113,9 +113,10 @@ def c12(results: Results) -> tuple[Word, Evidence]:
 def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
     """Return the three laws against the three tests of performance and the test of cost."""
     linear = closed_form.linear_settling(*results.gains())
-    if not set(THREE) <= set(adequacy.list_complete(results, engine)):
+    by_name = {law.name: law for law in adequacy.every(results, engine, THREE)}
+    if not set(THREE) <= set(by_name):
         raise NoEvidence(f"not all of {', '.join(THREE)} ran by {engine}: run a suite without narrowing it")
-    three = [adequacy.measure(results, engine, name) for name in THREE]
+    three = [by_name[name] for name in THREE]
     known = adequacy.of_three(results)
     every = {name: adequacy.examine(law, known, linear, {}) for name, law in zip(NAMES, three, strict=True)}
     asked = {name: tested.among(adequacy.BOTH) for name, tested in every.items()}
@@ -363,7 +364,7 @@ def c35(results: Results) -> tuple[Word, Evidence]:
 def c36(results: Results) -> tuple[Word, Evidence]:
     """Return which tests of performance each of the three lacks, exact boundary points included."""
     small, known = closed_form.linear_settling(*results.gains()), adequacy.of_three(results)
-    three = some([one for one in adequacy.every(results, MAIN_ENGINE) if one.name in THREE], "law of the paper")
+    three = some(adequacy.every(results, MAIN_ENGINE, THREE), "law of the paper")
     tested = {law.name: adequacy.examine(law, known, small, {}).among(TESTS) for law in three}
     in_words = dict(zip(THREE, IN_WORDS, strict=True))
     told = " ".join(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 
@@ -18,7 +19,8 @@ OMEGA = ("omega0_x", "omega0_y", "omega0_z")
 
 def euler_angles_along(trace: pd.DataFrame) -> np.ndarray:
     """Return alpha, beta, gamma of each sample of a trace, n x 3, from the columns of R as `zyx_euler.chart` has it."""
-    n, o, a = (trace[[f"{column}_{x}" for x in "xyz"]].to_numpy(float).T for column in "noa")
+    elements = [f"{column}_{axis}" for column, axis in itertools.product("noa", "xyz")]
+    n, o, a = trace[elements].to_numpy(float).T.reshape(3, 3, -1)
     level = np.sqrt(n[0] * n[0] + n[1] * n[1])
     is_off_pole = level > 0.0
     over = np.where(is_off_pole, level, 1.0)

@@ -66,6 +66,7 @@ class Results:
         self.others = others
         self.chosen: list[tuple[str, str]] = []
         self._chosen: dict[tuple, pd.DataFrame] = {}
+        self._first: pd.DataFrame | None = None
         self._spun: dict[tuple[str, Gains, str], list[Spun]] = {}
 
     def table(self, name: str, **words: str) -> pd.DataFrame:
@@ -85,12 +86,15 @@ class Results:
     def _choose(self, name: str, words: dict[str, str]) -> pd.DataFrame:
         asked = (name, *sorted(words.items()))
         if asked not in self._chosen:
-            if name not in self.frames:
-                if self.folder is None:
-                    raise NoEvidence(f"table '{name}': there is no folder to read it from; give one, or its frame")
-                self.frames[name] = read.table(self.folder, name)
-            self._chosen[asked] = read.chosen(self.frames[name], words)
+            self._chosen[asked] = read.matching(self._read(name), words)
         return self._chosen[asked]
+
+    def _read(self, name: str) -> pd.DataFrame:
+        if name not in self.frames:
+            if self.folder is None:
+                raise NoEvidence(f"table '{name}': there is no folder to read it from; give one, or its frame")
+            self.frames[name] = read.table(self.folder, name)
+        return self.frames[name]
 
     def free_body(self, name: str, **words: str) -> pd.DataFrame:
         """Rows of one table that have these words and are about the free body, in the paper's coordinates."""
@@ -118,18 +122,21 @@ class Results:
         if lacking:
             raise NoEvidence(f"{what} ran from fewer starts than the claim needs ({lacking}): {WHOLE}")
 
-    def _any_episode(self) -> pd.Series:
-        rows = self.table("episodes", **read.FREE_BODY, engine=MAIN_ENGINE)
-        return some(rows, f"episode by {MAIN_ENGINE}").iloc[0]
+    def _any_episode(self) -> pd.DataFrame:
+        words = {**read.FREE_BODY, "engine": MAIN_ENGINE}
+        if self._first is None:
+            every = self._read("episodes")
+            self._first = every.iloc[read.has_words(every, words).nonzero()[0][:1]]
+        return some(self._note("episodes", query_of(words), self._first), f"episode by {MAIN_ENGINE}")
 
     def gains(self) -> Gains:
         """Return the run's gains."""
         row = self._any_episode()
-        return Gains(float(row["kp"]), float(row["kv"]))
+        return Gains(float(row["kp"].array[0]), float(row["kv"].array[0]))
 
     def period(self) -> float:
         """Return the run's control period [s]."""
-        return float(self._any_episode()["dt_s"])
+        return float(self._any_episode()["dt_s"].array[0])
 
     def spun(self, law: str, engine: str = MAIN_ENGINE) -> list[Spun]:
         """Return starts of a law at stated speeds, with the run's gains, from the maps in the repository.
@@ -182,16 +189,13 @@ def some(frame: Rows, what: str) -> Rows:
 
 def widen(rows: pd.DataFrame) -> pd.DataFrame:
     """Return rows of probes.parquet with a column for each measure, a row a case, in the order of the rows."""
-    number = rows.groupby(list(CASE), sort=False, observed=True).ngroup().to_numpy()
-    measures, values = rows["measure"].astype(str).to_numpy(), rows["value"].to_numpy(float)
-    found = rows.loc[~pd.Series(number, index=rows.index).duplicated(), list(CASE)]
-    found = found.reset_index(drop=True)
-    for measure in dict.fromkeys(measures):
-        is_it = measures == measure
-        column = np.full(len(found), np.nan)
-        column[number[is_it]] = values[is_it]
-        found[measure] = column
-    return found
+    first, number = read.number_rows(rows, CASE)
+    measure, names = pd.factorize(rows["measure"])
+    values = rows["value"].to_numpy(float)
+    columns = np.full((len(names), len(first)), np.nan)
+    columns[measure, number] = values
+    found = rows[list(CASE)].iloc[first].reset_index(drop=True)
+    return found.assign(**dict(zip(map(str, names), columns, strict=True)))
 
 
 def query_of(words: Mapping[str, str | Sequence[str]]) -> str:
