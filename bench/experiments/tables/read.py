@@ -101,11 +101,16 @@ def with_contender(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the frame with `contender` added, as the command line writes it; each combination is named only once."""
     columns = [name for name in MARKS if name in frame]
     first, number = number_rows(frame, columns)
-    few = frame[columns].iloc[first].astype(str)
-    names = few[columns[0]]
-    for name in columns[1:]:
-        names = names.where(few[name] == "", names + MARKS[name] + few[name])
-    return frame.assign(contender=names.astype("category").array.take(number))
+    names = [""] * len(first)
+    for column in columns:
+        words = frame[column].iloc[first].astype(object)
+        for place, word in enumerate(words):
+            if word:
+                names[place] += MARKS[column] + word
+    categories = sorted(set(names))
+    code_of = {name: code for code, name in enumerate(categories)}
+    codes = np.array([code_of[name] for name in names], dtype=int)
+    return frame.assign(contender=pd.Categorical.from_codes(codes[number], categories))
 
 
 def number_rows(frame: pd.DataFrame, columns: Sequence[str]) -> tuple[np.ndarray, np.ndarray]:

@@ -145,8 +145,8 @@ def resampled_slope(x: np.ndarray, y: np.ndarray, seed: int = SEED) -> np.ndarra
 @functools.lru_cache(maxsize=16)
 def _resampled_counts(count: int, seed: int) -> np.ndarray:
     """How often each value is in each resample, shape (RESAMPLES, count): of the same resamples as `_resamples`."""
-    rows = count * np.arange(RESAMPLES, dtype=np.int64)
-    drawn = _resamples(count, seed) + rows[:, None]
-    counts = np.bincount(drawn.ravel(), minlength=RESAMPLES * count)
     is_small = count <= np.iinfo(np.int16).max
-    return counts.reshape(RESAMPLES, count).astype(np.int16 if is_small else np.int32)
+    counts = np.empty((RESAMPLES, count), dtype=np.int16 if is_small else np.int32)
+    for row, drawn in zip(counts, _resamples(count, seed), strict=True):
+        row[:] = np.bincount(drawn, minlength=count)
+    return counts

@@ -7,9 +7,10 @@ from collections.abc import Iterable
 
 import tasks
 from bench.base.on_first_use import pd
+from bench.experiments.columns import CONTENDER_KEY
 from bench.experiments.probe_values.arms import BY_EULER, CURVES, INVERSES, ON_MATRIX, TASK
 from bench.experiments.suites import SUITES
-from bench.experiments.tables.read import chosen
+from bench.experiments.tables.read import matching
 from bench.findings.amounts import count_of, join_words, part_of
 from bench.findings.claims import adequacy, standing
 from bench.findings.claims.adequacy import of_stage, tallied
@@ -65,6 +66,10 @@ def controller_costs(results: Results, controller: str, joints: int) -> pd.DataF
     return some(rows[rows["joints"] == joints], f"cost of {controller} on {joints} joints")
 
 
+COMPARED = (*CONTENDER_KEY, "arm", "start_set", "start_id", "outcome", "peak_tau_nm")
+"""Columns of episodes that C20 compares controllers by."""
+
+
 @claim("C20")
 def c20(results: Results) -> tuple[Word, Evidence]:
     """Curves at two steps; outcomes at the poles against the law on R; stages and totals."""
@@ -72,6 +77,7 @@ def c20(results: Results) -> tuple[Word, Evidence]:
         results.table("episodes", task=TASK, engine="native", variation="ideal-motors"),
         "nominal episode of an arm",
     )
+    found = found[list(COMPARED)]
     arms = sorted(set(found["arm"].astype(str)))
     bends = [_bend(results, arm) for arm in arms]
     compared_at = {arm: _at_poles(results, found, arm) for arm in arms}
@@ -129,7 +135,7 @@ def _pairs(results: Results, found: pd.DataFrame, arm: str, start_set: str, cont
     least = {part.start_set: part.size or 0 for part in SUITES["quick"].on_arms.slices}  # of the smallest suite
     parts = []
     for one in (controller, ON_MATRIX):
-        own = chosen(rows, words(one, tasks.arm(arm).joints))
+        own = matching(rows, words(one, tasks.arm(arm).joints))
         parts.append(some(own, f"episode of {one} on {arm} from {start_set}"))
         results.check_starts(own, f"{one} on {arm}", least, start_set)
     return _against(*parts)
@@ -137,10 +143,15 @@ def _pairs(results: Results, found: pd.DataFrame, arm: str, start_set: str, cont
 
 def _against(own: pd.DataFrame, other: pd.DataFrame) -> pd.DataFrame:
     """Both controllers' episodes side by side: whether the first fails where the other settles."""
-    both = own.merge(other, on="start_id", suffixes=("", "_other"))
+    columns = ["start_id", "outcome", "peak_tau_nm"]
+    both = own[columns].astype({"start_id": str}).merge(
+        other[columns].astype({"start_id": str}),
+        on="start_id",
+        suffixes=("", "_other"),
+    )
     hammered = ~(both["peak_tau_nm"] <= HAMMERED * both["peak_tau_nm_other"])
     fails = (both["outcome_other"] == "settled") & ((both["outcome"] != "settled") | hammered)
-    return pd.DataFrame({"start_id": both["start_id"].astype(str), "fails": fails})
+    return pd.DataFrame({"start_id": both["start_id"], "fails": fails})
 
 
 def _at_poles(results: Results, found: pd.DataFrame, arm: str) -> pd.DataFrame:

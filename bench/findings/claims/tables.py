@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping, Sequence, Sized
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
@@ -166,15 +167,21 @@ class Results:
 
     def machines(self) -> list[pd.DataFrame]:
         """Return the times of each machine that was timed, its name in a column `machine`."""
-        from bench.experiments.tables.store import read_arrow
-
         paths = sorted(self.timings_folder.glob("*.parquet"))
-        return [read_arrow(path, "timings").to_pandas().assign(machine=path.stem) for path in paths]
+        return [_read_times(path, path.stat().st_mtime_ns) for path in paths]
 
     def _all_timings(self) -> pd.DataFrame:
         frames = self.machines() + ([self.frames["timings"]] if "timings" in self.frames else [])
         every = pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=TIMED)
         return read.with_contender(every)
+
+
+@functools.lru_cache(maxsize=16)
+def _read_times(path: Path, changed_ns: int) -> pd.DataFrame:
+    """Return the times of a machine; changed_ns: when the file was last written, for another one is read again."""
+    from bench.experiments.tables.store import frame
+
+    return frame(path, "timings").assign(machine=path.stem)
 
 
 Rows = TypeVar("Rows", bound=Sized)
