@@ -64,7 +64,7 @@ episodes, traces, costs, boundaries, poses, compliance, robustness = (
 
 def converged(frame: pd.DataFrame) -> pd.DataFrame:
     """Return all episodes of a table, without the episodes whose outcome changes if the time step is shorter."""
-    return frame[frame["converged"] != "no"]
+    return rows_where(frame, (frame["converged"] != "no").to_numpy(bool))
 
 
 def provenance() -> dict:
@@ -117,8 +117,12 @@ def number_rows(frame: pd.DataFrame, columns: Sequence[str]) -> tuple[np.ndarray
     """Return the places of the first rows of each combination of values, ascending, and each row's number of these."""
     combined = np.zeros(len(frame), dtype=np.int64)
     for name in columns:
-        codes, values = pd.factorize(frame[name])
-        combined = combined * (len(values) + 1) + codes + 1
+        values = frame[name].array
+        codes = values.codes if isinstance(values, pd.Categorical) else pd.factorize(values)[0]
+        if (codes == codes[:1]).all():
+            continue  # a word that all rows share tells none of them apart
+        numbers, _ = pd.factorize(codes)
+        combined = combined * (numbers.max() + 1) + numbers
     _, first, number = np.unique(combined, return_index=True, return_inverse=True)
     order = np.argsort(first)
     place = np.empty_like(order)
@@ -136,8 +140,16 @@ def chosen(frame: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
 def matching(frame: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
     """Return the rows whose columns have these words, renumbered from 0; columns may know words that do not occur."""
     if words:
-        frame = frame[has_words(frame, words)]
+        frame = rows_where(frame, has_words(frame, words))
     return frame.reset_index(drop=True)
+
+
+def rows_where(frame: pd.DataFrame, is_chosen: np.ndarray) -> pd.DataFrame:
+    """Return some rows; where they stand together, as those of a law do, nothing is copied."""
+    places = is_chosen.nonzero()[0]
+    if len(places) and places[-1] - places[0] + 1 == len(places):
+        return frame.iloc[places[0] : places[-1] + 1]
+    return frame.iloc[places]
 
 
 def has_words(frame: pd.DataFrame, words: dict[str, str]) -> np.ndarray:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from bench.base.on_first_use import pd
-from bench.experiments.tables.read import FREE_BODY, converged
+from bench.experiments.tables.read import FREE_BODY, converged, rows_where
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims import places
 from bench.findings.claims.once import once_a_run
@@ -118,13 +118,14 @@ class Starts(NamedTuple):
 def starts_of_laws(results: Results, engine: str, laws: tuple[str, ...]) -> dict[str, Starts]:
     """Return the converged starts that C17 and C27 are about, of each law that has as many as a claim needs."""
     runs = results.table("episodes", **FREE_BODY, task="free-body", engine=engine)
+    is_chosen = runs["start_set"].isin(("uniform", *DIRECTED)).to_numpy()
     if laws:
-        runs = runs[runs["contender"].isin(laws)]
-    runs = runs[runs["start_set"].isin(("uniform", *DIRECTED))]
+        is_chosen = is_chosen & runs["contender"].isin(laws).to_numpy()
+    runs = rows_where(runs, is_chosen)
     if results.folder:
         least = least_starts(engine, "beyond")
         lacking = find_lacking(runs, least, "uniform", "half-turn")
-        runs = runs[~runs["contender"].isin(lacking)]
+        runs = rows_where(runs, ~runs["contender"].isin(lacking).to_numpy())
     runs = some(converged(runs), f"law with the starts that a claim needs by {engine}")
     starts = Starts(
         start_set=runs["start_set"].astype(object).to_numpy(),
@@ -190,19 +191,14 @@ def exact(runs: pd.DataFrame) -> pd.Series:
 
 def of_stage(rows: pd.DataFrame, stage: str) -> Operations:
     """Flops and transcendental calls of one stage of a contender's rows."""
-    return _list_operations(rows[rows["stage"] == stage])[0]
+    place = (rows["stage"] == stage).to_numpy(bool).nonzero()[0][0]
+    return Operations(int(rows["flops"].array[place]), sum(int(rows[name].array[place]) for name in CALLS))
 
 
 def tallied(rows: pd.DataFrame, with_goal: bool) -> Operations:
     """Flops and transcendental calls of one contender's rows, a row a stage."""
-    total, goal = of_stage(rows, "total"), of_stage(rows, "goal")
-    return total if with_goal else total.without(goal)
-
-
-def _list_operations(rows: pd.DataFrame) -> list[Operations]:
-    """Return the flops and transcendental calls of each row of costs.parquet."""
-    calls = rows[list(CALLS)].to_numpy().sum(axis=1)
-    return [Operations(*pair) for pair in zip(rows["flops"].tolist(), calls.tolist(), strict=True)]
+    total = of_stage(rows, "total")
+    return total if with_goal else total.without(of_stage(rows, "goal"))
 
 
 class Stages(NamedTuple):
@@ -216,10 +212,11 @@ class Stages(NamedTuple):
 def operations_of_laws(results: Results) -> dict[str, Stages]:
     """Return the operations of each law of the free body, typical branch, by its name in alphabetical order."""
     rows = results.table("costs", **FREE_BODY, branch="typical")
-    laws, stages = (rows[column].astype(str).tolist() for column in ("contender", "stage"))
+    laws, stages = (rows[column].astype(object).tolist() for column in ("contender", "stage"))
+    calls = rows[list(CALLS)].to_numpy().sum(axis=1).tolist()
     found: dict[tuple[str, str], Operations] = {}
-    for law, stage, operations in zip(laws, stages, _list_operations(rows), strict=True):
-        found.setdefault((law, stage), operations)
+    for law, stage, *operations in zip(laws, stages, rows["flops"].tolist(), calls, strict=True):
+        found.setdefault((law, stage), Operations(*operations))
     return {law: Stages(found[law, "total"], found[law, "goal"]) for law in sorted(set(laws))}
 
 

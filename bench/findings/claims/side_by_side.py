@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from bench.base.on_first_use import pd
+from bench.findings.claims.once import once_a_run
 from bench.findings.claims.places import turns_of
 from bench.findings.claims.tables import Results, evidence, some
 from bench.findings.claims.verdict import Evidence, Word
@@ -81,7 +82,7 @@ def beside_base(results: Results, representation: str, orders: tuple[str, ...], 
 
     A row each arm, form, pose and order that both have; cos_beta and from_zero (the angle of R) [rad] are added.
     """
-    both = paired(results, representation, forms, task=PROBE)
+    both = paired(results, representation, forms, PROBE)
     for order in orders:
         some(
             both[both["complies"] == order],
@@ -92,13 +93,21 @@ def beside_base(results: Results, representation: str, orders: tuple[str, ...], 
     return both.assign(cos_beta=np.cos(both["beta"]), from_zero=turns_of(angles))
 
 
-def paired(results: Results, representation: str, forms: tuple[str, ...], **words: str) -> pd.DataFrame:
-    """Rows of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`), of some forms."""
+@once_a_run
+def paired(results: Results, representation: str, forms: tuple[str, ...], task: str = "") -> pd.DataFrame:
+    """Rows of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`), of some forms.
+
+    task: the only one whose rows are compared; all if it is empty.
+    """
+    words = {"task": task} if task else {}
     own = results.table("compliance", controller="hybrid", representation=representation, **words)
     base = results.table("compliance", controller=BASE, **words)
-    own, base = (one[one["form"].isin(forms)] for one in (own, base))
-    own, base = (one.assign(**{name: one[name].astype(str) for name in PAIRED}) for one in (own, base))
+    own, base = (_with_plain_words(rows[rows["form"].isin(forms).to_numpy()]) for rows in (own, base))
     return own.merge(base, on=list(PAIRED), suffixes=("", "_base"))
+
+
+def _with_plain_words(rows: pd.DataFrame) -> pd.DataFrame:
+    return rows.assign(**{name: rows[name].astype(str) for name in PAIRED})
 
 
 def compliances(rows: pd.DataFrame, suffix: str = "") -> np.ndarray:

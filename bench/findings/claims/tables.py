@@ -103,14 +103,14 @@ class Results:
 
     def _choose_free_body(self, name: str, words: dict[str, str]) -> pd.DataFrame:
         frame = self._choose(name, {**read.FREE_BODY, **words})
-        return frame[frame["representation"].isin(PAPERS_COORDINATES)]
+        return read.rows_where(frame, frame["representation"].isin(PAPERS_COORDINATES).to_numpy())
 
     def episodes(self, regulator: str, engine: str, *start_sets: str) -> pd.DataFrame:
         """Return episodes of a law on the free body from some start sets; NoEvidence: fewer than a whole suite has."""
         words = {"task": "free-body", "regulator": regulator, "engine": engine}
         frame, condition = self._choose_free_body("episodes", words), _free_body_query(words)
         if start_sets:
-            frame = frame[frame["start_set"].isin(start_sets)]
+            frame = read.rows_where(frame, frame["start_set"].isin(start_sets).to_numpy())
             condition = f"{condition} and {query_of({'start_set': start_sets})}"
         self._note("episodes", condition, frame)
         some(frame, f"episode of {regulator} by {engine} from {', '.join(start_sets) or 'any start set'}")
