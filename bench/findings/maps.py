@@ -89,8 +89,10 @@ def read_cells(path: Path) -> pd.DataFrame:
 
     A map has a million rows, and a law's cells stand together: so only a few thousand rows become a data frame.
     """
-    table = read_arrow(path, "map", [*OF_CELLS, *NUMBERS]).unify_dictionaries().combine_chunks()
-    columns = {name: table.column(name).combine_chunks() for name in table.column_names}
+    table = read_arrow(path, "map", [*OF_CELLS, *NUMBERS])
+    if any(column.num_chunks != 1 for column in table.columns):
+        table = table.unify_dictionaries().combine_chunks()
+    columns = {name: table.column(name).chunk(0) for name in table.column_names}
     is_first = np.zeros(table.num_rows, dtype=bool)
     is_first[:1] = True
     for name in OF_CELLS:
@@ -106,8 +108,7 @@ def read_cells(path: Path) -> pd.DataFrame:
 @functools.lru_cache(maxsize=1)
 def count_in(folder: Path) -> pd.DataFrame:
     """Return `counted` of the maps in a folder, once for the runs at all gains; NoTable: there is no map."""
-    counts = [counted(read_cells(path)) for path in _list_maps(folder)]
-    return _sum(pd.concat(counts, ignore_index=True))
+    return counted(pd.concat([read_cells(path) for path in _list_maps(folder)], ignore_index=True))
 
 
 def lost_between(lost: int, unconverged: int, of: int) -> Estimate:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import functools
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from bench.base.on_first_use import pd
-from bench.experiments.tables.read import FREE_BODY, converged, rows_where
+from bench.experiments.tables.read import FREE_BODY, converged, number_rows, rows_where
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims import places
 from bench.findings.claims.once import once_a_run
@@ -25,7 +26,7 @@ from bench.findings.claims.standing import (
 )
 from bench.findings.claims.tables import Results, settled, settling_times, some
 from bench.findings.perturbed import DETOUR
-from bench.findings.start_sets import count_starts, least_starts
+from bench.findings.start_sets import least_starts
 from bench.law.attribution import YOURS
 from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders
@@ -140,14 +141,13 @@ def starts_of_laws(results: Results, engine: str, laws: tuple[str, ...]) -> dict
 
 def find_lacking(runs: pd.DataFrame, least: Mapping[str, int], *start_sets: str) -> list[str]:
     """Return the laws with fewer starts of some set than they need."""
-    number, names = pd.factorize(runs["contender"])
-    start_set, start_id = runs["start_set"].array, runs["start_id"].array
+    first, _ = number_rows(runs, ("contender", "start_set", "start_id"))
+    laws, sets = (runs[column].astype(object).to_numpy()[first].tolist() for column in ("contender", "start_set"))
+    counts = Counter(zip(laws, sets, strict=True))
     found = []
-    for place, name in enumerate(names):
-        is_of_law = number == place
-        counts = count_starts(pd.DataFrame({"start_set": start_set[is_of_law], "start_id": start_id[is_of_law]}))
-        if any(counts[word] < least.get(word, 0) for word in start_sets):
-            found.append(str(name))
+    for law in dict.fromkeys(laws):
+        if any(counts[law, name] < least.get(name, 0) for name in start_sets):
+            found.append(law)
     return found
 
 

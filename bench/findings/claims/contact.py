@@ -55,7 +55,7 @@ LIMITS_S = {"end": HORIZON_S, "window": WINDOW_S}
 def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     """Pairs of episodes in contact that differ in the Jacobian alone, by task."""
     what = f"pose of a task by hybrid/{COORDINATES} and {BASE}, +{' or +'.join(forms)}"
-    rows = some(paired(results, COORDINATES, forms), what)
+    rows = some(paired(results, COORDINATES, forms, ("beta", "outcome", *PERFORMANCE)), what)
     touching = rows[list(TOUCHED)].notna().groupby(rows["task"]).transform("any").any(axis=1)
     rows = some(_compared(rows[touching].reset_index(drop=True)), "pose of a task with contact")
     complex_ones = some(rows[rows["turns"] >= 2], "pose of a task with contact where two turns comply")

@@ -18,11 +18,16 @@ from bench.findings.claims.places import turns_of
 from bench.findings.claims.tables import Results, evidence, some
 from bench.findings.claims.verdict import Evidence, Word
 from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM, hybrid
+from bench.law.control.setpoint import ContactParameters
+from bench.law.inputs import Gains
 
 PROBE, BASE = "wrench-probe", "hybrid-base"
 MEASURED = tuple(f"c_{i}{j}" for i in "xyz" for j in "xyz")
 PAIRED = ("task", "arm", "form", "pose", "complies")
 """What two controllers' rows have in common: the same arm, scene, frame of the hand, order and form."""
+
+OF_POSES = (*Gains._fields, *ContactParameters._fields, "horizon_s", "alpha", "beta", "gamma", "outcome", *MEASURED)
+"""Columns that measured compliances are compared by, with each other and with their closed form."""
 
 DECIDES = f"""
     We simulated several variants of force control (the column `form` of compliance.parquet). The verdict comes from the
@@ -82,7 +87,7 @@ def beside_base(results: Results, representation: str, orders: tuple[str, ...], 
 
     A row each arm, form, pose and order that both have; cos_beta and from_zero (the angle of R) [rad] are added.
     """
-    both = paired(results, representation, forms, PROBE)
+    both = paired(results, representation, forms, OF_POSES, PROBE)
     for order in orders:
         some(
             both[both["complies"] == order],
@@ -94,20 +99,24 @@ def beside_base(results: Results, representation: str, orders: tuple[str, ...], 
 
 
 @once_a_run
-def paired(results: Results, representation: str, forms: tuple[str, ...], task: str = "") -> pd.DataFrame:
+def paired(
+    results: Results, representation: str, forms: tuple[str, ...], columns: tuple[str, ...], task: str = ""
+) -> pd.DataFrame:
     """Rows of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`), of some forms.
 
-    task: the only one whose rows are compared; all if it is empty.
+    columns: what is compared, beside PAIRED. task: the only one whose rows are compared; all if it is empty.
     """
     words = {"task": task} if task else {}
     own = results.table("compliance", controller="hybrid", representation=representation, **words)
     base = results.table("compliance", controller=BASE, **words)
-    own, base = (_with_plain_words(rows[rows["form"].isin(forms).to_numpy()]) for rows in (own, base))
+    own, base = (_columns_of(rows, forms, columns) for rows in (own, base))
     return own.merge(base, on=list(PAIRED), suffixes=("", "_base"))
 
 
-def _with_plain_words(rows: pd.DataFrame) -> pd.DataFrame:
-    return rows.assign(**{name: rows[name].astype(str) for name in PAIRED})
+def _columns_of(rows: pd.DataFrame, forms: tuple[str, ...], columns: tuple[str, ...]) -> pd.DataFrame:
+    """Return some columns of the rows of some forms, and PAIRED as plain words, which two frames are merged by."""
+    chosen = rows.loc[rows["form"].isin(forms).to_numpy(), [*PAIRED, *columns]]
+    return chosen.assign(**{name: chosen[name].astype(str) for name in PAIRED})
 
 
 def compliances(rows: pd.DataFrame, suffix: str = "") -> np.ndarray:
@@ -121,8 +130,6 @@ def predicted(rows: pd.DataFrame, representation: str = "") -> np.ndarray:
     import tasks
     from bench.findings.theory.compliance_theory import compliance
     from bench.law.contenders.registry import contenders
-    from bench.law.control.setpoint import ContactParameters
-    from bench.law.inputs import Gains
     from bench.law.so3 import from_quaternion
     from tasks.domains.wrench_probe import SPECIFICATIONS
     from tasks.rotations import zyx
