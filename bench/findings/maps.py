@@ -9,7 +9,6 @@ import numpy as np
 import pandas as pd
 
 from bench.base.errors import NoTable
-from bench.experiments.columns import CONTENDER_KEY
 from bench.experiments.tables.read import number_rows, with_contender
 from bench.experiments.tables.statistics import TAIL, Estimate
 from bench.experiments.tables.store import read, read_arrow
@@ -80,7 +79,7 @@ def _sum(cells: pd.DataFrame) -> pd.DataFrame:
     return found.assign(lost=found["starts"] - found["settled"] - found["unconverged"])
 
 
-OF_CELLS = [*CONTENDER_KEY, "row", "kp", "kv", "engine", *SPEEDS]
+OF_CELLS = ["regulator", "representation", "row", "kp", "kv", "engine", *SPEEDS]
 """Columns that consecutive cells of one count share."""
 
 

@@ -116,7 +116,7 @@ def paired(
 def _columns_of(rows: pd.DataFrame, forms: tuple[str, ...], columns: tuple[str, ...]) -> pd.DataFrame:
     """Return some columns of the rows of some forms, and PAIRED as plain words, which two frames are merged by."""
     chosen = rows.loc[rows["form"].isin(forms).to_numpy(), [*PAIRED, *columns]]
-    return chosen.assign(**{name: chosen[name].astype(str) for name in PAIRED})
+    return chosen.assign(**{name: chosen[name].astype(object) for name in PAIRED})
 
 
 def compliances(rows: pd.DataFrame, suffix: str = "") -> np.ndarray:
