@@ -21,7 +21,6 @@ from bench.experiments.probe_values.arms import (
     INVERSES,
     OFF,
     ON_MATRIX,
-    SIX_JOINTS,
     STATES,
     TASK,
 )

@@ -23,7 +23,6 @@ from bench.experiments.probe_values.turns import (
     MATRIX,
     NEAR_GOAL_RAD,
     PERTURBED,
-    RELATIVE,
     SPEED,
 )
 from bench.experiments.probes.number import Number

@@ -40,7 +40,7 @@ def wilson(count: int, of: int) -> tuple[float, float]:
 
 
 def place_of_quantile(count: int, level: float) -> int:
-    """Return the place in order, from 0, of the smallest value that at least a share `level` of values do not exceed."""
+    """Return the place in order, from 0, of the smallest value that at least a share `level` do not exceed."""
     # 0.07 * 100 is 7.000000000000001, which is no reason to take the eighth
     return max(0, math.ceil(level * count - 1e-9) - 1)
 
@@ -99,7 +99,7 @@ def quantile_estimate(values: np.ndarray, level: float, seed: int = SEED) -> Est
 
 
 REACH = 5.0
-"""Standard deviations of a resample's place in order that are looked at first: of RESAMPLES, all but a few are nearer."""
+"""How far from the quantile of all values that of a resample is looked for first, in standard deviations."""
 
 
 def resampled_quantile(values: np.ndarray, level: float, seed: int = SEED) -> np.ndarray:
