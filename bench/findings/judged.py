@@ -8,10 +8,10 @@ from typing import Any
 import pandas as pd
 
 from bench.experiments import plan as planning
-from bench.experiments.choice import Choice
 from bench.experiments.experiment import Unit
 from bench.experiments.plan import Plan
-from bench.experiments.tables.read import table, with_contender
+from bench.experiments.request import Request
+from bench.experiments.tables.run import Run, with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import why
 from bench.findings.judgement import Judgement
@@ -101,9 +101,16 @@ def find_reason(one: Contender, episodes: pd.DataFrame) -> str:
 
 def plan_of(laws: list[Contender]) -> Plan:
     """Return the command field, the episodes and the perturbations of some laws."""
-    episodes = Choice(("free-body",), START_SETS, (ENGINE,), experiments=("free-body", "command-field"))
-    first = planning.make("quick", laws, episodes)
-    second = planning.make("quick", laws, Choice(experiments=("robustness",)))
+    every = Request("quick", tuple(laws))
+    episodes = dataclasses.replace(
+        every,
+        tasks=("free-body",),
+        start_sets=START_SETS,
+        engines=(ENGINE,),
+        experiments=("free-body", "command-field"),
+    )
+    first = planning.make(episodes)
+    second = planning.make(dataclasses.replace(every, experiments=("robustness",)))
     return dataclasses.replace(first, units=first.units + second.units)
 
 
@@ -129,7 +136,9 @@ def _beside(field: pd.DataFrame, episodes: pd.DataFrame) -> tuple[dict[str, Any]
     if field.empty or episodes.empty:
         return ()
     reference = RESULTS / "reference"
-    run = table(reference, "episodes")
+    whole = Run(reference)
+    run = whole.table("episodes")
     run = run[(run["arm"] == "") & (run["engine"] == ENGINE) & run["start_set"].isin(START_SETS)]
-    lines = why.beside(field, with_contender(episodes), table(reference, "command-field"), run).to_dict("records")
+    fields = whole.table("command-field")
+    lines = why.beside(field, with_contender(episodes), fields, run).to_dict("records")
     return tuple({key: None if value != value else value for key, value in line.items()} for line in lines)

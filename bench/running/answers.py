@@ -8,7 +8,8 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.columns import Table
-from bench.experiments.experiment import Settings, Unit, experiment_of, no_rows
+from bench.experiments.experiment import Unit, experiment_of, no_rows
+from bench.experiments.request import Request
 from bench.experiments.tables.store import lost_table
 from tasks.cause import CAUSES
 from tasks.verdict import CRASHED, OUTCOMES, SETTLED
@@ -29,7 +30,7 @@ def most_rows(unit: Unit) -> int:
     return MOST_ROWS if experiment_of(unit).lost is no_rows else unit.episodes
 
 
-def check_rows(settings: Settings, unit: Unit, rows: pd.DataFrame) -> None:
+def check_rows(settings: Request, unit: Unit, rows: pd.DataFrame) -> None:
     """Raise ValueError for rows not the unit's: another law's or start's, a row twice or too few, an unknown word."""
     experiment = experiment_of(unit)
     place = {"suite": settings.suite, "seed": settings.seed, "task": unit.task, "arm": unit.arm, "engine": unit.engine}

@@ -57,7 +57,7 @@ class Sandbox(contextlib.AbstractContextManager):
         self.notes: list[str] = []
         self.again: set[str] = set()
         self.reasons: dict[str, str] = {}  # why a law was lost, the first time
-        self._own = {one.name: one for one in plan.settings.own}
+        self._own = {one.name: one for one in plan.request.user_laws}
         self._tried: dict[Unit, pa.Table] = {}
         self._unready: dict[str | tuple[str, ...], Lost] = {}
         self._pool = Pool()
@@ -108,7 +108,7 @@ class Sandbox(contextlib.AbstractContextManager):
 
     def packed(self, unit: Unit) -> bytes | None:
         """Return the rows of a unit, of a user's law or of ours, as bytes; None if it is to be tried again."""
-        made = self.rows(unit) if self.has(unit) else table_of_unit(self.plan.settings, unit)
+        made = self.rows(unit) if self.has(unit) else table_of_unit(self.plan.request, unit)
         return None if unit.key in self.again else pack(made, experiment_of(unit).table)
 
     def _one_by_one(self, unit: Unit) -> Iterator[pa.Table]:
@@ -128,11 +128,11 @@ class Sandbox(contextlib.AbstractContextManager):
                     return
 
     def _lost(self, unit: Unit, outcome: str) -> pa.Table:
-        return lost_table(self.plan.settings, unit, outcome)
+        return lost_table(self.plan.request, unit, outcome)
 
     def _rows(self, unit: Unit, some: Unit, patience_s: float) -> pa.Table:
         """Return the rows of some of a unit's episodes."""
-        limit_s = patience_s + TICK_S[unit.engine] * experiment_of(unit).ticks(self.plan.settings, some)
+        limit_s = patience_s + TICK_S[unit.engine] * experiment_of(unit).ticks(self.plan.request, some)
         if self.limit_s is not None:
             limit_s = self.limit_s if some is unit else min(self.limit_s, limit_s)
         with self._process(unit) as process, self._mistakes(unit):
@@ -177,7 +177,7 @@ class Sandbox(contextlib.AbstractContextManager):
     def _begin(self, law: str) -> Process:
         self._compile_ours()
         mine = [one for one in self.plan.units if one.law == law]
-        return Process(law, self.plan.settings, json.dumps(described(self.plan, mine)).encode())
+        return Process(law, self.plan.request, json.dumps(described(self.plan, mine)).encode())
 
     def _compile_ours(self) -> None:
         """Compile our code that the laws need before the first process of one starts; see `ours_first`."""

@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterator
 import pyarrow as pa
 
 from bench.base.errors import BadResults
-from bench.experiments.experiment import Settings, Unit, experiment_of
+from bench.experiments.experiment import Unit, experiment_of
+from bench.experiments.request import Request
 from bench.experiments.tables.packed import most_bytes, unpack
 from bench.law.contenders.law_process import LawProcess
 from bench.running import sandbox_process
@@ -60,9 +61,9 @@ class Mistake(Exception):
 
 
 class Process:
-    """One process, and the line to it. settings: the plan's. chunk: the first message, about one law, if not sent."""
+    """One process, and the line to it. settings: its request. chunk: the first message, about one law, if not sent."""
 
-    def __init__(self, law: str, settings: Settings, chunk: bytes):
+    def __init__(self, law: str, settings: Request, chunk: bytes):
         self.law, self.settings, self.chunk = law, settings, chunk
         self.process = LawProcess(sandbox_process.__name__)
         self.prepared: set = set()

@@ -52,11 +52,11 @@ def prepared(plan: Plan, unit: Unit, run_of: Connection) -> bytes:
     """Return the answer when all that the unit's rows need is built; a law that always raises, or hangs, is lost."""
 
     def ready() -> bytes:
-        experiment_of(unit).prepare(plan.settings, unit)
+        experiment_of(unit).prepare(plan.request, unit)
         return b""
 
     def tried() -> bytes:
-        if raised := trial_error(plan.settings.contender(unit.contender)):
+        if raised := trial_error(plan.request.contender(unit.contender)):
             raise RuntimeError(raised)
         return b""
 
@@ -69,7 +69,7 @@ def prepared(plan: Plan, unit: Unit, run_of: Connection) -> bytes:
 
 def made(plan: Plan, unit: Unit) -> bytes:
     """Return the rows of a unit."""
-    return pack(table_of_unit(plan.settings, unit), experiment_of(unit).table)
+    return pack(table_of_unit(plan.request, unit), experiment_of(unit).table)
 
 
 def answer_of_a_fork(work: Callable[[], bytes], processor_s: float, longest_s: float, run_of: Connection) -> bytes:

@@ -5,11 +5,13 @@ import re
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from bench.base.errors import NoEvidence
 from bench.base.provenance import read_provenance
+from bench.experiments.tables.run import Run
 from bench.findings.answer import NOT_TESTED, Answer, find_answer
 from bench.findings.claims import tables
 from bench.findings.claims.places import EXACT_RAD
-from bench.findings.claims.verdict import NoEvidence, Word
+from bench.findings.claims.verdict import Word
 from bench.findings.conclusions import conclude
 from bench.findings.replication import compare_jacobians, measure_settling, starts_at_rest
 from bench.law.attribution import IN_WORDS
@@ -17,7 +19,7 @@ from report.figures.answer import which_law
 from report.figures.failures import failure_map
 from report.figures.kit import families, html
 from report.figures.kit.laws import LINEARIZED, MATRIX
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 from report.figures.kit.spelling import prose
 from report.figures.method.provenance import CITATION, cited
 from report.figures.replication.conclusions import SHORT, call_laws, count_statements, list_in_short

@@ -1,5 +1,6 @@
 """A user's law that raises, exits, hangs or is no law at all in some states costs its own rows, never the run."""
 
+import dataclasses
 import textwrap
 import time
 
@@ -10,11 +11,12 @@ from support.user_law import plan_of, spring_text
 
 from bench.base.errors import BadLaw
 from bench.experiments import plan as planning
-from bench.experiments.choice import Choice
 from bench.experiments.experiment import experiment_of
 from bench.experiments.plan import Plan
+from bench.experiments.request import Request
 from bench.experiments.tables import store
 from bench.experiments.tables.packed import unpack
+from bench.law.contender import Contender
 from bench.law.contenders.described_law import described
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import contenders_of
@@ -34,8 +36,9 @@ def test_unit_gives_up_after_some_lost_episodes(tmp_path):
 def test_perturbed_law_that_hangs_loses_the_whole_unit(tmp_path):
     path = tmp_path / "own.py"
     path.write_text(spring_text("while R.n[0] < -0.1: x = x + 1e-9"))
-    choice = Choice(axes=("delay", "spin"), experiments=("robustness",))
-    plan = planning.make("quick", contenders_of(described(path)), choice, count=3, horizon_s=0.05)
+    laws = tuple(contenders_of(described(path)))
+    words = {"axes": ("delay", "spin"), "experiments": ("robustness",)}
+    plan = planning.make(Request("quick", laws, count=3, horizon_s=0.05, **words))
     run.run(plan, tmp_path / "run", workers=1, law_limit_s=LIMIT_S)
     rows = store.read(tmp_path / "run", "robustness")
     assert len(rows) == plan.episodes()
@@ -81,7 +84,8 @@ def test_mistake_in_a_law_names_the_users_file(tmp_path):
 def test_answer_of_the_process_is_the_rows_that_a_thread_makes(tmp_path):
     plan = plan_of(tmp_path, "pass", engine="ideal-rk4")
     unit = next(one for one in plan.units if one.contender == "mine")
-    here = Plan(plan.settings._replace(own=(load_law(tmp_path / "mine.py"),)), plan.units)
+    loaded = (Contender(load_law(tmp_path / "mine.py")),)
+    here = Plan(dataclasses.replace(plan.request, laws=loaded), plan.units)
     content = sandbox_process.answer(lambda: sandbox_process.made(here, unit.part(1, 2)))
     assert content[:1] == sandbox_process.DONE
     assert unpack(content[1:], experiment_of(unit).table).column("start_id").to_pylist() == [

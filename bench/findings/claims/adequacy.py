@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from bench.base.on_first_use import pd
-from bench.experiments.tables.read import FREE_BODY, converged, number_rows, rows_where
+from bench.experiments.tables.run import FREE_BODY, Run, converged, number_rows, require_rows, rows_where
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims import places
 from bench.findings.claims.once import once_a_run
@@ -24,7 +24,7 @@ from bench.findings.claims.standing import (
     price_of_a_call,
     times_of,
 )
-from bench.findings.claims.tables import Results, settled, settling_times, some
+from bench.findings.claims.tables import settled, settling_times, starts_at_speed
 from bench.findings.perturbed import DETOUR
 from bench.findings.start_sets import least_starts
 from bench.law.attribution import YOURS
@@ -82,17 +82,17 @@ class Adequacy(NamedTuple):
     rows: int
 
 
-def every(results: Results, engine: str, laws: tuple[str, ...] = ()) -> list[Adequacy]:
+def every(run: Run, engine: str, laws: tuple[str, ...] = ()) -> list[Adequacy]:
     """Return the laws that have a suite's uniform starts, 180° rotations and a cost, the fewest operations first.
 
     laws: those that are looked at; all if none is named.
     """
-    starts, operations = starts_of_laws(results, engine, laws), operations_of_laws(results)
+    starts, operations = starts_of_laws(run, engine, laws), operations_of_laws(run)
     found = []
     for name in starts:
         start_sets = set(starts[name].start_set.tolist())
         if name in operations and {"uniform", "half-turn"} <= start_sets:
-            spun = tuple(results.spun(name, engine))
+            spun = tuple(starts_at_speed(run, name, engine))
             found.append(measure(name, starts[name], operations[name], spun))
     return sorted(found, key=lambda law: sum(law.cost))
 
@@ -116,18 +116,18 @@ class Starts(NamedTuple):
 
 
 @once_a_run
-def starts_of_laws(results: Results, engine: str, laws: tuple[str, ...]) -> dict[str, Starts]:
+def starts_of_laws(run: Run, engine: str, laws: tuple[str, ...]) -> dict[str, Starts]:
     """Return the converged starts that C17 and C27 are about, of each law that has as many as a claim needs."""
-    runs = results.table("episodes", **FREE_BODY, task="free-body", engine=engine)
+    runs = run.table("episodes", **FREE_BODY, task="free-body", engine=engine)
     is_chosen = runs["start_set"].isin(("uniform", *DIRECTED)).to_numpy()
     if laws:
         is_chosen = is_chosen & runs["contender"].isin(laws).to_numpy()
     runs = rows_where(runs, is_chosen)
-    if results.folder:
+    if run.has_folder:
         least = least_starts(engine, "beyond")
         lacking = find_lacking(runs, least, "uniform", "half-turn")
         runs = rows_where(runs, ~runs["contender"].isin(lacking).to_numpy())
-    runs = some(converged(runs), f"law with the starts that a claim needs by {engine}")
+    runs = require_rows(converged(runs), f"law with the starts that a claim needs by {engine}")
     starts = Starts(
         start_set=runs["start_set"].astype(object).to_numpy(),
         is_lost=~settled(runs).to_numpy(),
@@ -173,10 +173,10 @@ def measure(name: str, starts: Starts, operations: Stages, spun: tuple[Spun, ...
     )
 
 
-def held(results: Results, noise_rad: float) -> dict[str, tuple[int, int]]:
+def held(run: Run, noise_rad: float) -> dict[str, tuple[int, int]]:
     """Return by law the starts at 180° that worst-case noise up to an angle holds there, and of how many."""
-    noise = results.table("robustness", axis=NOISE)
-    tried = some(noise[noise["level"] <= noise_rad], f"episode under '{NOISE}'")
+    noise = run.table("robustness", axis=NOISE)
+    tried = require_rows(noise[noise["level"] <= noise_rad], f"episode under '{NOISE}'")
     counts = tried.assign(lost=~settled(tried)).groupby("contender", observed=True)["lost"].agg(["sum", "size"])
     return {str(name): (int(lost), int(of)) for name, lost, of in counts.itertuples()}
 
@@ -209,9 +209,9 @@ class Stages(NamedTuple):
 
 
 @once_a_run
-def operations_of_laws(results: Results) -> dict[str, Stages]:
+def operations_of_laws(run: Run) -> dict[str, Stages]:
     """Return the operations of each law of the free body, typical branch, by its name in alphabetical order."""
-    rows = results.table("costs", **FREE_BODY, branch="typical")
+    rows = run.table("costs", **FREE_BODY, branch="typical")
     laws, stages = (rows[column].astype(object).tolist() for column in ("contender", "stage"))
     calls = rows[list(CALLS)].to_numpy().sum(axis=1).tolist()
     found: dict[tuple[str, str], Operations] = {}
@@ -221,20 +221,20 @@ def operations_of_laws(results: Results) -> dict[str, Stages]:
 
 
 @once_a_run
-def ledger(results: Results) -> Ledger:
+def ledger(run: Run) -> Ledger:
     """Return the cost of laws of the free body, typical branch, without the goal's stage and with it."""
-    by_law = operations_of_laws(results)
+    by_law = operations_of_laws(run)
     alone = {name: stages.total.without(stages.goal) for name, stages in by_law.items()}
     whole = {name: stages.total for name, stages in by_law.items()}
-    times = times_of(results.timings())
+    times = times_of(run.timings())
     return Ledger(times, (alone, whole), price_of_a_call(times, whole))
 
 
-def of_three(results: Results) -> Ledger:
+def of_three(run: Run) -> Ledger:
     """Return the ledger where the paper's three laws are counted; NoEvidence: one of them is not."""
-    known = ledger(results)
+    known = ledger(run)
     for name in THREE:
-        some([one[name] for one in known.accountings if name in one], f"cost of {name}")
+        require_rows([one[name] for one in known.accountings if name in one], f"cost of {name}")
     return known
 
 

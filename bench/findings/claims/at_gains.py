@@ -10,12 +10,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from bench.base.errors import NoEvidence
 from bench.experiments.columns import CONTENDER_KEY
-from bench.experiments.tables import read
+from bench.experiments.tables.run import MAIN_ENGINE, Run, read_table
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.amounts import join_words
-from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results, evidence
-from bench.findings.claims.verdict import Evidence, NoEvidence, Word, does
+from bench.findings.claims.tables import CHECK_ENGINES, evidence
+from bench.findings.claims.verdict import Evidence, Word, does
 from bench.law.inputs import Gains
 
 REFERENCE = RESULTS / "reference"
@@ -42,24 +43,24 @@ HALF_STEP = "half-step"
 """The reference's seed, at half its control period."""
 
 
-def other_gains(results: Results) -> list[Results]:
+def other_gains(run: Run) -> list[Run]:
     """Return the runs of results/gains and results/reference; none for tables alone, unless they name some.
 
     They are the same whatever the run is, so that every run gives a claim one word.
     """
-    if results.others is not None:
-        return list(results.others)
-    if results.folder is None:
+    if run.others is not None:
+        return list(run.others)
+    if not run.has_folder:
         return []
     folders = [REFERENCE, *(path.parent for path in sorted(GAINS.glob("*/episodes.parquet")))]
-    own = results.folder.resolve()
-    return [results if folder == own and results.is_as_stored else _run_of(folder) for folder in folders]
+    own = run.folder.resolve() if run.is_as_stored else None
+    return [run if folder == own else _run_of(folder) for folder in folders]
 
 
 @functools.cache
-def _run_of(folder: Path) -> Results:
+def _run_of(folder: Path) -> Run:
     """Return the run in a folder, one for all claims, so that what they share is computed once."""
-    return Results(folder, {"episodes": read.table(folder, "episodes", EPISODES)})
+    return Run(folder, {"episodes": read_table(folder, "episodes", EPISODES)})
 
 
 def at_every_gain(decide: Callable) -> Callable:
@@ -74,13 +75,13 @@ def weakest_at_every_gain(decide: Callable) -> Callable:
 
 def _at_every_gain(decide: Callable, combine: Callable[[list[Word]], Word]) -> Callable:
     @functools.wraps(decide)
-    def judge(results: Results) -> Any:
-        others = other_gains(results)
+    def judge(run: Run) -> Any:
+        others = other_gains(run)
         if not others:
-            return decide(results)
-        own = results.gains()
+            return decide(run)
+        own = run.gains()
         found = {one.gains(): decide(one) for one in others if one.gains() != own}
-        found = dict(sorted({**found, own: decide(results)}.items()))
+        found = dict(sorted({**found, own: decide(run)}.items()))
         # What was not tested at some gains says nothing of what would come out there.
         words = [word for word, _ in found.values() if word != Word.UNTESTED]
         word = combine(words) if words else Word.UNTESTED
@@ -139,15 +140,15 @@ def _told(gains: Gains) -> str:
 
 
 def on_every_engine(decide: Callable) -> Callable:
-    """Wrap a judging function of (results, engine) to ask the main engine, then the sampled ones that have rows."""
+    """Wrap a judging function of (run, engine) to ask the main engine, then the sampled ones that have rows."""
 
     @functools.wraps(decide)
-    def judge(results: Results) -> Any:
-        word, found = decide(results, MAIN_ENGINE)
+    def judge(run: Run) -> Any:
+        word, found = decide(run, MAIN_ENGINE)
         others, rows = {}, found.rows
         for engine in CHECK_ENGINES:
             with contextlib.suppress(NoEvidence):
-                others[engine], also = decide(results, engine)
+                others[engine], also = decide(run, engine)
                 rows += also.rows
         said = "We did not judge the claim for sampled control, because this run has too few such simulations."
         if others:

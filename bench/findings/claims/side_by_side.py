@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 
 from bench.base.on_first_use import pd
+from bench.experiments.tables.run import Run, require_rows
 from bench.findings.claims.once import once_a_run
 from bench.findings.claims.places import turns_of
-from bench.findings.claims.tables import Results, evidence, some
+from bench.findings.claims.tables import evidence
 from bench.findings.claims.verdict import Evidence, Word
 from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM, hybrid
 from bench.law.control.setpoint import ContactParameters
@@ -39,15 +40,15 @@ DECIDES = f"""
 
 
 def by_either_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[..., tuple[Word, Evidence]]:
-    """Wrap a judging function of (results, forms): if both ways to control forces give one word, that is the word.
+    """Wrap a judging function of (run, forms): if both ways to control forces give one word, that is the word.
 
     Else it depends on how it is read, for the paper's sentence says of neither that it is meant.
     """
 
     @functools.wraps(decide)
-    def judge(results: Results) -> Any:
-        word, papers = decide(results, (PAPERS_FORM,))
-        other, ours = decide(results, ACCELERATION_FORMS)
+    def judge(run: Run) -> Any:
+        word, papers = decide(run, (PAPERS_FORM,))
+        other, ours = decide(run, ACCELERATION_FORMS)
         instead = (
             f"With commanded accelerations, the claim {other}. {ours.instead} "
             f"With forces by the Jacobian transpose, the claim {word}. "
@@ -65,12 +66,12 @@ def by_either_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[...
 
 
 def by_papers_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[..., tuple[Word, Evidence]]:
-    """Wrap a judging function of (results, forms) to ask the paper's force control, then commanded accelerations."""
+    """Wrap a judging function of (run, forms) to ask the paper's force control, then commanded accelerations."""
 
     @functools.wraps(decide)
-    def judge(results: Results) -> Any:
-        word, papers = decide(results, (PAPERS_FORM,))
-        other, ours = decide(results, ACCELERATION_FORMS)
+    def judge(run: Run) -> Any:
+        word, papers = decide(run, (PAPERS_FORM,))
+        other, ours = decide(run, ACCELERATION_FORMS)
         return word, evidence(
             f"""With forces by the Jacobian transpose, the claim {word}. {papers}
             With commanded accelerations, the claim {other}. {ours}""",
@@ -82,14 +83,14 @@ def by_papers_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[...
     return judge
 
 
-def beside_base(results: Results, representation: str, orders: tuple[str, ...], forms: tuple[str, ...]) -> pd.DataFrame:
+def beside_base(run: Run, representation: str, orders: tuple[str, ...], forms: tuple[str, ...]) -> pd.DataFrame:
     """Return rows of wrench-probe of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`).
 
     A row each arm, form, pose and order that both have; cos_beta and from_zero (the angle of R) [rad] are added.
     """
-    both = paired(results, representation, forms, OF_POSES, PROBE)
+    both = paired(run, representation, forms, OF_POSES, PROBE)
     for order in orders:
-        some(
+        require_rows(
             both[both["complies"] == order],
             f"pose of {PROBE} by hybrid/{representation} and {BASE}, +{' or +'.join(forms)}, {order}",
         )
@@ -100,15 +101,15 @@ def beside_base(results: Results, representation: str, orders: tuple[str, ...], 
 
 @once_a_run
 def paired(
-    results: Results, representation: str, forms: tuple[str, ...], columns: tuple[str, ...], task: str = ""
+    run: Run, representation: str, forms: tuple[str, ...], columns: tuple[str, ...], task: str = ""
 ) -> pd.DataFrame:
     """Rows of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`), of some forms.
 
     columns: what is compared, beside PAIRED. task: the only one whose rows are compared; all if it is empty.
     """
     words = {"task": task} if task else {}
-    own = results.table("compliance", controller="hybrid", representation=representation, **words)
-    base = results.table("compliance", controller=BASE, **words)
+    own = run.table("compliance", controller="hybrid", representation=representation, **words)
+    base = run.table("compliance", controller=BASE, **words)
     own, base = (_columns_of(rows, forms, columns) for rows in (own, base))
     return own.merge(base, on=list(PAIRED), suffixes=("", "_base"))
 
