@@ -9,7 +9,8 @@ import numpy as np
 import pandas as pd
 
 from bench.base.errors import NoTable
-from bench.experiments.tables.run import number_rows, with_contender
+from bench.experiments.tables.rows import number_rows
+from bench.experiments.tables.run import with_contender
 from bench.experiments.tables.statistics import TAIL, Estimate
 from bench.experiments.tables.store import read, read_arrow
 from bench.law.inputs import Gains

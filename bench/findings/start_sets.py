@@ -10,7 +10,7 @@ import tasks
 from bench.base.on_first_use import pd
 from bench.experiments.slices import read_slices
 from bench.experiments.suites import SUITES
-from bench.experiments.tables.run import number_rows
+from bench.experiments.tables.rows import number_rows
 
 AT_REST = ("half-turn", "poles", "wraps", "box")
 """Starts at rest whose goal is the identity: points of SO(3) alone."""

@@ -206,11 +206,12 @@ def test_run_of_two_starts_a_set_judges_no_claim_about_episodes(tmp_path):
 
 JUDGED = """
 import sys
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
 
 for paper in claims.PAPERS:
-    run = claims.Results(RESULTS / "reference")
+    run = Run(RESULTS / "reference")
     _, lacks = claims.judge_possible(run, paper)
     assert not lacks, lacks
 print(*(name for name in sys.modules if name.startswith(("bench.engines", "bench.experiments.probes"))))

@@ -17,6 +17,8 @@ RESAMPLES = 2000
 
 TAIL = 0.025
 
+NOTHING = "no values to resample (allowed: at least one)"
+
 
 class Estimate(NamedTuple):
     """A number and its 95 % interval."""
@@ -68,7 +70,8 @@ def bootstrap(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: in
     Of evenly spread starts, which vary less than random ones, the interval is on the wide side. values: one number a
     start, shape (n,), at least one. statistic(values, axis=-1) -> one number along that axis.
     """
-    return percentile_estimate(statistic(values, axis=-1), resampled(values, statistic, seed))
+    found = resampled(values, statistic, seed)
+    return percentile_estimate(statistic(values, axis=-1), found)
 
 
 def percentile_estimate(value: float | np.ndarray, found: np.ndarray) -> Estimate:
@@ -83,7 +86,7 @@ def resampled(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: in
     So the difference of two laws' is the paired bootstrap of their difference.
     """
     if not len(values):
-        raise ValueError("no values to resample (allowed: at least one)")
+        raise ValueError(NOTHING)
     return statistic(np.asarray(values)[_resamples(len(values), seed)], axis=-1)
 
 
@@ -95,7 +98,8 @@ def _resamples(count: int, seed: int) -> np.ndarray:
 
 def quantile_estimate(values: np.ndarray, level: float, seed: int = SEED) -> Estimate:
     """Return a quantile with its interval, as `bootstrap` has it."""
-    return percentile_estimate(quantile(values, level), resampled_quantile(values, level, seed))
+    found = resampled_quantile(values, level, seed)
+    return percentile_estimate(quantile(values, level), found)
 
 
 REACH = 5.0
@@ -111,6 +115,8 @@ def resampled_quantile(values: np.ndarray, level: float, seed: int = SEED) -> np
     """
     values = np.asarray(values)
     total = len(values)
+    if not total:
+        raise ValueError(NOTHING)
     place = place_of_quantile(total, level)
     counts = _resampled_counts(total, seed)
     order = np.argsort(values, kind="stable")

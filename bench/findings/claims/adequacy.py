@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from bench.base.on_first_use import pd
-from bench.experiments.tables.run import FREE_BODY, Run, converged, number_rows, require_rows, rows_where
+from bench.experiments.tables.rows import number_rows, rows_where
+from bench.experiments.tables.run import FREE_BODY, Run, converged, require_rows
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims import places
 from bench.findings.claims.once import once_a_run

@@ -11,7 +11,8 @@ from bench.base.on_first_use import pd
 from bench.experiments.columns import CONTENDER_KEY
 from bench.experiments.probe_values.arms import BY_EULER, CURVES, INVERSES, ON_MATRIX, TASK
 from bench.experiments.suites import SUITES
-from bench.experiments.tables.run import Run, matching, require_rows
+from bench.experiments.tables.rows import matching
+from bench.experiments.tables.run import Run, require_rows
 from bench.findings.amounts import count_of, join_words, part_of
 from bench.findings.claims import adequacy, standing
 from bench.findings.claims.adequacy import of_stage, tallied
