@@ -65,7 +65,7 @@ def COMMAND(
 
 def _rows(chosen: list[Contender], arm: str = "") -> pd.DataFrame:
     """Rows of costs.parquet: of laws alone, or on an arm; a user's are counted in their sandbox."""
-    from bench.running.sandbox import Sandbox
+    from bench.running.sandbox.sandbox import Sandbox
 
     plan = Plan(Request(laws=tuple(chosen)), tuple(Unit("costs", one.name, arm=arm) for one in chosen))
     with Sandbox(plan) as sandbox, progress("laws", "counting"):

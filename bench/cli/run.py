@@ -52,8 +52,8 @@ from bench.running.schedulers import check_scheduler
     "--law-limit",
     type=options.LAW_LIMIT,
     metavar="SECONDS",
-    show_default="30, and ten times what ours take",
-    help="A --law that takes longer for a unit of work is stopped there, and its rows say hung.",
+    show_default="10, and ten times what ours take",
+    help="A --law that takes longer for 25 starts is stopped there, and their rows say hung.",
 )
 @click.option("--dry-run", is_flag=True, help="Print the whole plan; run nothing.")
 def COMMAND(

@@ -19,14 +19,13 @@ from bench.findings.raised import find_exception
 from bench.law.contender import Contender
 from bench.law.contenders.registry import contenders_of
 from bench.law.kinds import Law
-from bench.running.sandbox import LOST, Sandbox
+from bench.running.sandbox.sandbox import LOST, Sandbox
 from tasks.verdict import CRASHED, OUTCOMES
 
 ENGINE = "ideal-rk4"
 START_SETS = ("uniform", "half-turn", "tumbling", "goals")
-LIMIT_S, TRIED = 5.0, 3
-"""Seconds of processor time for a unit, ten times what a law of ours takes; and episodes of a lost one that are tried
-singly before the rest counts as lost too."""
+LIMIT_S = 5.0
+"""Seconds of processor time for a unit or a stretch of one, ten times what a law of ours takes for a unit."""
 
 Parts = dict[tuple[str, str], list[pd.DataFrame]]
 """Rows by law and experiment."""
@@ -35,14 +34,14 @@ Parts = dict[tuple[str, str], list[pd.DataFrame]]
 def judged(
     regulators: Iterable[Law], limit_s: float = LIMIT_S, report: Callable[[Unit], object] = bool
 ) -> list[Judgement]:
-    """Return the judgement of every law; a unit is hung after limit_s of processor time. BadLaw: a file is no law.
+    """Return the judgement of every law; 25 starts are hung after limit_s of processor time. BadLaw: a file is no law.
 
     report: is called with each unit that is run.
     """
     laws = contenders_of(*regulators)
     plan = plan_of(laws)
     parts: Parts = defaultdict(list)
-    with Sandbox(plan, limit_s, TRIED) as sandbox:
+    with Sandbox(plan, limit_s) as sandbox:
         look_at_commands(plan, sandbox, parts, report)
         explained = {one.name for one in laws if find_cause(one, parts)}
         rest = dataclasses.replace(plan, units=without(plan.units, explained))

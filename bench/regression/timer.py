@@ -22,9 +22,9 @@ from typing import Any, NamedTuple
 
 from bench.base.errors import Incompatible
 from bench.base.files import read_json
+from bench.base.isolated import confine, end_all
 from bench.base.processes import law_environment
 from bench.base.provenance import ROOT
-from bench.law.contenders.law_process import confine, end_all
 
 BENCHMARKS = Path("tests", "benchmarks")
 """Folder of the benchmarks in a checkout."""

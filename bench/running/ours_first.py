@@ -31,7 +31,7 @@ from bench.running.precompile import end_without
 from bench.running.wire_format import described, plan_of
 
 LONGEST_S = 600.0
-"""On the wall, for all of it: as long as a law's process may take to start and to compile (sandbox_line.START_S)."""
+"""On the wall, for all of it: as long as a law's process may take to start and to compile (sandbox.pool.READY)."""
 
 UNCOMPILED = "reference"
 """The engine that runs plain Python."""

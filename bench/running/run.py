@@ -20,7 +20,7 @@ from bench.experiments.request import check_workers
 from bench.experiments.tables.store import lost_table, merge, read_arrow, write_table
 from bench.running.precompile import compiling_ahead
 from bench.running.run_folder import begin, held, inspect, part, read_part, sweep, tidy
-from bench.running.sandbox import LOST, Sandbox
+from bench.running.sandbox.sandbox import LOST, Sandbox
 from bench.running.schedulers import THREADS, check_scheduler, kind, threads
 
 
@@ -37,7 +37,7 @@ def run(
     """Carry out what is not done yet; return whether there was anything to do.
 
     workers: threads of this process. report: called with every unit when it is done. law_limit_s: how long a unit of
-    a user's law may take; None for the rule of `bench.running.sandbox`. BadResults: the folder cannot be used, or
+    a user's law may take; None for the rule of `sandbox.sandbox`. BadResults: the folder cannot be used, or
     another run is at work there. MissingTool, LostWorkers: a cluster. KeyboardInterrupt: after what is finished is
     written.
     """

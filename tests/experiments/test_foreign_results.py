@@ -16,7 +16,7 @@ from bench.base.errors import BadResults
 from bench.experiments.tables import store
 from bench.experiments.tables.run import VARIABLE, Run, shown_run
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.selection.tables import tables_of
+from bench.findings.selection.tables import select_rows
 from bench.law.contenders.registry import contenders_of
 from report.figures.cards import regulators
 from report.figures.method import provenance as origin
@@ -86,7 +86,7 @@ def test_summary_of_their_results_runs_no_law_of_theirs(capsys, evil, marker):
 
 
 def test_answer_from_their_results_runs_no_law_of_theirs(evil, marker):
-    found = tables_of(Run(evil)).contenders
+    found = select_rows(Run(evil)).contenders
     assert "rotation-matrix" in found
     assert "evil-law" not in found
     assert not marker.exists()

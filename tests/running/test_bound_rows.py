@@ -26,7 +26,7 @@ from bench.law.contender import Contender
 from bench.law.contenders.described_law import described
 from bench.law.contenders.registry import find_contender
 from bench.running import run
-from bench.running.answers import check_rows
+from bench.running.sandbox.answers import check_rows
 
 PATHS = sorted((RESULTS / "reference").glob("*.parquet"))
 
@@ -154,7 +154,7 @@ def test_law_that_lies_loses_its_own_rows_alone(tmp_path, way, laws):
 def killed_while(folder, condition: str):
     """A plan of our law and one whose process is killed when it loads the file, while this holds."""
     plan = plan_of(folder, "pass", engine="ideal-rk4")
-    killed = f"import os, sys\nif 'sandbox_process' in sys.argv[0] and {condition}: os.kill(os.getpid(), 9)\n"
+    killed = f"import os, sys\nif 'running/sandbox' in sys.argv[0] and {condition}: os.kill(os.getpid(), 9)\n"
     (folder / "mine.py").write_text(killed + spring_text("pass"))
     laws = (Contender(described(folder / "mine.py")),)
     return dataclasses.replace(plan, request=dataclasses.replace(plan.request, laws=laws))

@@ -23,7 +23,7 @@ from bench.law.contenders.registry import find_contender
 from bench.running import run, wire_format
 from bench.running.run import in_running_order
 from bench.running.run_folder import begin, part
-from bench.running.sandbox import Sandbox
+from bench.running.sandbox.sandbox import Sandbox
 from bench.running.schedulers import check_scheduler, cluster, kind, worker
 from bench.running.schedulers.cluster import CHUNK_S, MOST_EPISODES, in_batches
 from bench.running.wire_format import described

@@ -223,9 +223,12 @@ class Run:
         times = pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=TIMED)
         return with_contender(times)
 
-    def provenance(self) -> dict[str, Any]:
-        """Return the contents of provenance.json: how the results were made."""
-        return read_provenance(self.folder)
+    def provenance(self, *needed: str) -> dict[str, Any]:
+        """Return the contents of provenance.json: how the results were made.
+
+        BadResults: it is not as a run writes it, or lacks an entry that is needed.
+        """
+        return read_provenance(self.folder, needed)
 
     def user_laws(self) -> tuple[Law, ...]:
         """Return the user's laws that took part, by name; one that may not run has no function.

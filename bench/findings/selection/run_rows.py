@@ -23,7 +23,13 @@ from bench.findings.claims.adequacy import DETOUR, HELD_RAD, NOISE
 from bench.findings.on_arms import passed
 from bench.findings.selection.pairs import compare_shares, compare_times
 from bench.findings.selection.regions import FACTS, find_facts
-from bench.findings.selection.tables import Tables, by_law, by_standard_inverse, common, tables_of
+from bench.findings.selection.tables import (
+    ComparedRows,
+    by_law,
+    by_standard_inverse,
+    common,
+    select_rows,
+)
 
 OF_RUN = "run"
 """The situation of all rows: that of the run."""
@@ -41,7 +47,7 @@ class Compared(NamedTuple):
         pairs: Every two laws, by the paired bootstrap over the starts that both ran.
     """
 
-    tables: Tables
+    tables: ComparedRows
     rows: pd.DataFrame
     pairs: pd.DataFrame
 
@@ -62,7 +68,7 @@ def compare_free_body(run: Run) -> Compared:
     Beside what the rule reads: `directed`, the directed starts that do not settle; `detour`, the longest path over the
     shortest, from uniform starts and 180° rotations; `held`, the least noise tried that traps the law at 180°.
     """
-    tables = tables_of(run)
+    tables = select_rows(run)
     uniform, directed = tables.uniform, tables.directed
     exact = directed[directed["start_set"] == EXACT]
     times = by_law(uniform, "settling_time_s", math.inf)
@@ -88,7 +94,7 @@ def compare_arms(run: Run) -> Compared:
     Motors and joints stop some turns of every law: the time of 99 % of the turns is infinite for all. So lost starts,
     detours and overshoot are those of the free body, which nothing stops, and the share of the turns decides.
     """
-    tables = tables_of(run)
+    tables = select_rows(run)
     arms = keep_whole(tables.arms[tables.arms["contender"].isin(tables.contenders)])
     if arms.empty:
         raise NoEvidence("no law was run on an arm (try: bench run --task arm-regulation)")
@@ -121,7 +127,7 @@ def compare_positions(run: Run) -> Compared:
     return _compare_first_order(tables, rows, late)
 
 
-def _compare_first_order(tables: Tables, rows: pd.DataFrame, starts: pd.DataFrame) -> Compared:
+def _compare_first_order(tables: ComparedRows, rows: pd.DataFrame, starts: pd.DataFrame) -> Compared:
     """Return first-order laws by the times of these starts; detours and 180° rotations are those of the free body."""
     uniform, exact = split_free_body(rows)
     is_away = uniform["furthest_rad"] > uniform["angle0_rad"] + AWAY_RAD
@@ -135,7 +141,7 @@ def _compare_first_order(tables: Tables, rows: pd.DataFrame, starts: pd.DataFram
     return Compared(tables, make_rows(tables, numbers), tabulate_pairs(compare_times(times)))
 
 
-def read_velocities(run: Run) -> tuple[Tables, pd.DataFrame]:
+def read_velocities(run: Run) -> tuple[ComparedRows, pd.DataFrame]:
     """Return the tables of a run, and its rows of the first-order laws that these compare."""
     advice = "no robot was commanded by velocities (try: bench run --experiment velocity)"
     try:
@@ -147,7 +153,7 @@ def read_velocities(run: Run) -> tuple[Tables, pd.DataFrame]:
         raise NoEvidence(advice)
     law = rows["contender"].astype(str).str.partition("@")[0]
     rows = rows.assign(contender=law, lost=rows["outcome"].astype(str) != "settled")
-    tables = tables_of(run)
+    tables = select_rows(run)
     return tables, rows[rows["contender"].isin(tables.contenders)]
 
 
@@ -164,7 +170,7 @@ def keep_whole(rows: pd.DataFrame) -> pd.DataFrame:
     return rows[starts == starts.max()]
 
 
-def count_from_rest(tables: Tables) -> dict[str, pd.Series]:
+def count_from_rest(tables: ComparedRows) -> dict[str, pd.Series]:
     """Return what the uniform starts of the free body count: lost, unwound, and the overshoot of 99 % [deg]."""
     uniform = tables.uniform
     overshoot = {law: np.degrees(own) for law, own in by_law(uniform, "overshoot_rad").items()}
@@ -185,7 +191,7 @@ def take(values: Mapping[str, np.ndarray], level: float) -> pd.Series:
     return pd.Series({law: float(quantile(own, level)) for law, own in values.items()}, dtype=float)
 
 
-def make_rows(tables: Tables, numbers: Mapping[str, Mapping[str, float] | pd.Series]) -> pd.DataFrame:
+def make_rows(tables: ComparedRows, numbers: Mapping[str, Mapping[str, float] | pd.Series]) -> pd.DataFrame:
     """Return the rows of the laws that have all numbers which decide; numbers: column -> law -> number."""
     columns = pd.DataFrame({name: pd.Series(own, dtype=float) for name, own in numbers.items()})
     decisive = [name for name in columns if name in ("lost", "stuck", "time", "missed")]

@@ -29,11 +29,17 @@ SAMPLED = "native"
 """The engine of a law that cannot run on the continuous plant: MuJoCo's own actuator."""
 
 
-class Tables(NamedTuple):
-    """uniform, directed: starts that every law ran; arms: episodes on arms as they are, by the geometric Jacobian.
+class ComparedRows(NamedTuple):
+    """Hold the rows of a run that laws are compared on.
 
-    ticks: law -> its time over a whole controller's tick [%], of the laws that were timed. contenders: the laws
-    compared, by name, the simplest first.
+    Attributes:
+        uniform: Uniform starts of the free body that every law ran.
+        directed: Directed starts that every law ran.
+        costs: Law -> its rows of costs.
+        robustness: Perturbed episodes.
+        arms: Episodes on arms as they are, by the geometric Jacobian.
+        ticks: Law -> its time over a whole controller's tick [%], of the laws that were timed.
+        contenders: The laws compared, by name, the simplest first.
     """
 
     uniform: pd.DataFrame
@@ -58,8 +64,8 @@ class Tables(NamedTuple):
         return self.memory(name), sum(self.spent(name))
 
 
-def tables_of(run: Run) -> Tables:
-    """Return the tables of a run for every law that has uniform starts, half-turn starts and a cost."""
+def select_rows(run: Run) -> ComparedRows:
+    """Return the rows of a run for every law that has uniform starts, half-turn starts and a cost."""
     every = run.table("episodes")
     runs = every[(every["task"] == "free-body") & every["engine"].isin((MAIN_ENGINE, SAMPLED))]
     on_main = set(runs.loc[runs["engine"] == MAIN_ENGINE, "contender"])
@@ -76,7 +82,7 @@ def tables_of(run: Run) -> Tables:
     runs = runs.assign(contender=runs["contender"].astype(str), lost=~settled(runs))
     named = {name: known[name] for name in names}
     robustness = require_rows(run.table("robustness"), "perturbed law")
-    found = Tables(
+    found = ComparedRows(
         common(runs[runs["start_set"] == "uniform"]),
         common(runs[runs["start_set"].isin(DIRECTED)]),
         priced,
