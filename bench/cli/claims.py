@@ -28,7 +28,7 @@ def COMMAND(folder: Path | None, criteria: bool, paper: str) -> None:
     """
     from bench.base.files import read_json
     from bench.experiments.tables import read
-    from bench.findings.claims import MURPHY, Results, at_gains, judge_possible
+    from bench.findings.claims import MURPHY, Results, all_claims, at_gains, judge_possible
     from bench.findings.claims.tables import WHOLE
 
     results = Results(folder or read.folder())
@@ -48,7 +48,8 @@ def COMMAND(folder: Path | None, criteria: bool, paper: str) -> None:
         print_paragraphs(_count(verdicts))
     if paper == MURPHY and at_gains.STORED.is_file():
         study = read_json(at_gains.STORED)
-        said = at_gains.describe(study, study["reference"])
+        ids = [one.id for one in all_claims(paper)]
+        said = at_gains.describe(study, study["reference"], ids)
         print_paragraphs(Paragraph("Steady?", (f"Of results/reference: {said}",)))
     if lacks:
         reasons = ((id, reason.removesuffix(f": {WHOLE}")) for id, reason in lacks.items())
