@@ -30,16 +30,21 @@ TORQUE_RATIO = 100.0
 ZERO = 1e-9
 """What is smaller in both does not count as a change: it is rounding itself."""
 
-BESIDE, CHANGE = "outcome_beside", "rounding_change"
+OUTCOME_NUDGED, CHANGE = "outcome_beside", "rounding_change"
 
 
-def judged_beside(
+def rerun_nudged(
     rows: pd.DataFrame, starts: Sequence[Start], again: Callable[[list[Start]], pd.DataFrame]
 ) -> pd.DataFrame:
-    """Return the rows of episodes, one a start, with BESIDE and CHANGE; `again` simulates other starts in the same way.
+    """Return the rows of episodes with two more columns: what a run from a start beside each doubtful one says.
 
-    BESIDE: the other outcome found beside the start; empty if there is none, or the episode is not doubtful.
-    CHANGE: the largest relative change of any number of the row beside its start; null if not doubtful.
+    OUTCOME_NUDGED is the other outcome beside the start; it is empty if there is none, or the episode is not doubtful.
+    CHANGE is the largest relative change of any number of the row; it is null if the episode is not doubtful.
+
+    Args:
+        rows: A row a start.
+        starts: The starts of the rows.
+        again: again(starts) -> the rows of other starts, simulated in the same way.
     """
     doubtful = np.flatnonzero((rows["cond_jacobian_max"] > CONDITION) | (rows["peak_torque_ratio"] > TORQUE_RATIO))
     other, change = np.full(len(rows), "", object), np.full(len(rows), np.nan)
@@ -49,7 +54,7 @@ def judged_beside(
         differs = (beside["outcome"] != here["outcome"]).to_numpy()
         other[doubtful[differs]] = beside["outcome"][differs]
         change[doubtful] = _change(here, beside)
-    return rows.assign(**{BESIDE: other, CHANGE: change})
+    return rows.assign(**{OUTCOME_NUDGED: other, CHANGE: change})
 
 
 def nudged(start: Start, by: float) -> Start:

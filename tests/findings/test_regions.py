@@ -12,9 +12,10 @@ from support.command_line import bench, refused
 from support.map_rule import map_verdicts
 
 from bench.cli import advised
-from bench.experiments.experiment import Settings, Unit
+from bench.experiments.experiment import Unit
+from bench.experiments.request import Request
 from bench.experiments.situations import mapped_laws, order_interval, rows, summarize
-from bench.experiments.tables.read import table
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read, write_table
 from bench.findings.selection.advice import list_unmapped
@@ -64,7 +65,7 @@ def test_advise_answers_a_situation_at_any_kp_as_its_rows_do(capsys, word):
 
 @pytest.mark.parametrize("word", RUN_AGAIN)
 def test_rows_of_the_map_are_those_of_episodes_run_again(word):
-    starts = pd.concat([rows(Settings("situations"), Unit("situations", law, selector=word)) for law in LAWS])
+    starts = pd.concat([rows(Request("situations"), Unit("situations", law, selector=word)) for law in LAWS])
     made = with_words(summarize(starts)).set_index("contender")
     kept = read_map()[read_map()["situation"] == word].set_index("contender").loc[made.index]
     counts = ["starts", "lost", "stuck", "trapped", "unwound", "operations"]
@@ -81,7 +82,7 @@ def test_rows_of_the_map_are_those_of_episodes_run_again(word):
 
 def test_map_has_every_law_of_the_reference_in_every_situation():
     known = {one.name for one in mapped_laws()}
-    in_reference = set(table(REFERENCE, "costs")["contender"].astype(str))
+    in_reference = set(Run(REFERENCE).table("costs")["contender"].astype(str))
     assert known & in_reference <= set(LAWS) <= known
     # A law that is newer than both is named.
     assert set(list_unmapped()) == known - set(LAWS)

@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from bench.experiments.tables import read
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.constants import CONSTANTS, HARDENING
 from bench.law.contenders.registry import contenders
@@ -21,7 +21,7 @@ SHIPPED = {(constant.law, constant.symbol): constant.shipped for constant in CON
 
 def test_every_law_of_the_reference_has_a_text_and_no_text_is_without_its_law():
     known = set(contenders("regulators"))
-    in_reference = set(read.table(RESULTS / "reference", "costs")["regulator"].astype(str))
+    in_reference = set(Run(RESULTS / "reference").table("costs")["regulator"].astype(str))
     assert known & in_reference <= set(regulators.TEXTS) <= known
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from bench.base.files import read_json
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.store import read
 from bench.findings.amounts import count_of, join_words
 from bench.findings.real_time import GREATEST, HALVINGS, PERIOD_S, STUDY
@@ -13,7 +14,6 @@ from bench.findings.theory.late_torques import find_alternating_limit, find_cons
 from report.figures.arms import arm_rows
 from report.figures.kit import families, html, style
 from report.figures.kit.inline import Drawing, responsive_picture
-from report.figures.kit.page import Run
 
 LOOPS = html.Table(
     "Arm | Law | Substeps in a period | Episodes | Episodes that settle in real time "

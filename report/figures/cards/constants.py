@@ -6,11 +6,11 @@ from typing import Any
 
 import pandas as pd
 
+from bench.experiments.tables.run import Run
 from bench.findings.amounts import capitalize, join_words
 from bench.findings.constants import CONSTANTS, Constant, Varied, default_times, read_rows, vary
 from bench.findings.selection.regions import find_default
 from report.figures.kit import families, html
-from report.figures.kit.page import Run
 
 TABLE = html.Table(
     "Law | Constant | Value used | Other values tried "

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from bench.experiments.tables import read
+from bench.experiments.tables.run import Run, shown_run
 from bench.findings import why
 from bench.findings.amounts import count_of
 from bench.findings.claims.tables import share
@@ -24,10 +24,17 @@ from bench.law.contender import Contender
 from bench.law.contenders import regulators
 from bench.law.contenders.registry import contenders, contenders_of, papers_laws
 from bench.law.kinds import Law
-from report.figures.cards.card import LawPage, Source, docstring, make_card, make_page, say_property, set_words
+from report.figures.cards.card import (
+    LawPage,
+    Source,
+    docstring,
+    make_card,
+    make_page,
+    say_property,
+    set_words,
+)
 from report.figures.cards.constants import describe_constants
 from report.figures.kit import families, html, laws, style
-from report.figures.kit.page import Run
 
 UNTRUSTED = (
     "Somebody else wrote this law. Its file came with these results, and we did not run it: this "
@@ -59,7 +66,7 @@ def in_order() -> list[Law]:
     """Return the paper's three regulators, its variants by name, the later ones by name, the user's own of the run."""
     first = [one.regulator for one in papers_laws()]
     others = [one for one in contenders("regulators").values() if one not in first]
-    return [*first, *sorted(others, key=lambda one: (one.later, one.name)), *read.own_laws()]
+    return [*first, *sorted(others, key=lambda one: (one.later, one.name)), *shown_run().user_laws()]
 
 
 def every_law() -> list[Contender]:

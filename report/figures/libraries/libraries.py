@@ -13,12 +13,13 @@ import pandas as pd
 
 from bench.audit.examined import COUNT_RAD
 from bench.base.files import read_json
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.store import read
 from bench.findings.amounts import capitalize, count_of, join_words
 from bench.findings.libraries import SINGLE_RAD, STUDY, WRONG_AXIS_RAD
 from bench.findings.remedy import KEEP, fix_of
 from report.figures.kit import html, spelling
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 from report.figures.kit.spelling import power
 from report.figures.libraries import as_shipped
 
