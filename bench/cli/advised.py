@@ -26,9 +26,6 @@ LACKS = {
 }
 """Columns that count what a law must not do, in words."""
 
-STUDY = "bench.studies.situations"
-"""The study that makes the map; it takes an hour."""
-
 NEAR_ONE = 0.01
 """A law that is faster by less than this is not said to be so."""
 
@@ -238,7 +235,8 @@ def _describe_trials(advice: Advice) -> str:
 def _describe_unmapped(laws: list[str]) -> str:
     """Name the laws that the map does not have yet, and say how to try them all the same."""
     verb = "is" if len(laws) == 1 else "are"
-    return f"Not in the map yet {verb} {listed(laws)}; --run simulates every law, python -P -m {STUDY} makes a new map."
+    cure = "--run simulates every law, python -P -m bench.studies.situations makes a new map (an hour)"
+    return f"Not in the map yet {verb} {listed(laws)}; {cure}."
 
 
 def describe_outside(number: Outside) -> str:
