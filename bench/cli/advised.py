@@ -234,9 +234,8 @@ def _describe_trials(advice: Advice) -> str:
 
 def _describe_unmapped(laws: list[str]) -> str:
     """Name the laws that the map does not have yet, and say how to try them all the same."""
-    verb = "is" if len(laws) == 1 else "are"
     cure = "--run simulates every law, python -P -m bench.studies.situations makes a new map (an hour)"
-    return f"Not in the map yet {verb} {listed(laws)}; {cure}."
+    return f"Not in the map yet: {listed(laws)}; {cure}."
 
 
 def describe_outside(number: Outside) -> str:

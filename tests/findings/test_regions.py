@@ -96,7 +96,7 @@ def test_law_that_a_map_lacks_is_named_with_the_cure(tmp_path):
     shutil.copy(STUDY / "provenance.json", tmp_path)
     assert set(list_unmapped(tmp_path)) == {"hybrid", *list_unmapped()}
     said = advised._describe_unmapped(["hybrid"])
-    assert said.startswith("Not in the map yet is hybrid; --run simulates every law")
+    assert said.startswith("Not in the map yet: hybrid; --run simulates every law")
 
 
 def test_map_has_a_pair_for_every_two_laws_of_which_one_settles():
