@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.base.on_first_use import Turn
+from bench.base.on_first_use import ScipyRotation
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.contenders.registry import contenders
 from tasks.rotations import columns as columns_of
@@ -44,7 +44,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return a row a spring and frame of its moment."""
     rng = np.random.default_rng((settings.seed, 11))
-    axes = Turn.random(rng=rng).as_matrix()
+    axes = ScipyRotation.random(rng=rng).as_matrix()
     K = axes @ np.diag(STIFFNESSES) @ axes.T
     paths = rng.uniform(-WIDTH, WIDTH, (LOOPS, 3, 3)) / math.sqrt(3.0)
     found = []
@@ -91,7 +91,7 @@ def compute_felt_stiffness(moment: Moment, K: np.ndarray) -> tuple[float, float]
 
 def turn(phi: np.ndarray) -> np.ndarray:
     """Return the unit quaternion (w, x, y, z) of a rotation vector, w >= 0."""
-    return Turn.from_rotvec(phi).as_quat(canonical=True, scalar_first=True)
+    return ScipyRotation.from_rotvec(phi).as_quat(canonical=True, scalar_first=True)
 
 
 def compute_work(moment: Moment, paths: np.ndarray, stiffness: float, points: int = POINTS) -> float:

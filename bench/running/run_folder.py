@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 import pyarrow as pa
 
-from bench.base import lock
 from bench.base.errors import BadResults
 from bench.base.files import is_leftover, make_folder, read_json, refuse_link, refused, write_atomically, write_json
+from bench.base.lock import lock_folder
 from bench.base.provenance import read_provenance
 from bench.experiments.experiment import Unit, experiment_of, known_experiments
 from bench.experiments.plan import Plan, digest_of
@@ -35,13 +35,13 @@ class State(NamedTuple):
 
 
 @contextlib.contextmanager
-def held(out: Path) -> Iterator[None]:
+def open_run_folder(out: Path) -> Iterator[None]:
     """Keep other runs out of the folder, made if there is none and never left empty; BadResults if one is at work."""
     is_new = not out.exists()
     with contextlib.ExitStack() as stack:
         try:
             make_folder(out)
-            stack.enter_context(lock.held(out))
+            stack.enter_context(lock_folder(out))
         except OSError as error:
             raise refused(out, error) from error
         try:

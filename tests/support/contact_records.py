@@ -1,7 +1,7 @@
 """Records of a hand in contact that are made up, whose metrics are known."""
 
 import numpy as np
-from scipy.spatial.transform import Rotation as Turn
+from scipy.spatial.transform import Rotation as ScipyRotation
 
 import tasks
 from bench.engines.metrics.contact_metric import Pose, Response
@@ -44,4 +44,4 @@ def pose(*responses, task=wrench_probe.TASK, controller=CARTESIAN) -> Pose:
 
 def spun(vector) -> np.ndarray:
     """Return orientations that turn evenly by a rotation vector [rad]."""
-    return Turn.from_rotvec(np.outer(TIME, vector)).as_matrix()
+    return ScipyRotation.from_rotvec(np.outer(TIME, vector)).as_matrix()

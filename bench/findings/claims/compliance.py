@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bench.base.on_first_use import Turn, pd
+from bench.base.on_first_use import ScipyRotation, pd
 from bench.findings.amounts import count, count_of, join_words, part_of
 from bench.findings.claims import side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
@@ -83,7 +83,10 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         )
     C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
     differs = side_by_side.apart(C, base)
-    turns = (Turn.from_euler("ZYX", each).as_matrix() for each in (earlier, rows[list(ANGLES)].to_numpy()))
+    turns = (
+        ScipyRotation.from_euler("ZYX", each).as_matrix()
+        for each in (earlier, rows[list(ANGLES)].to_numpy())
+    )
     differs_turned, differs_in_hand = (side_by_side.apart(C, side_by_side.turned(base, Q)) for Q in turns)
     word = word_of((differs[away] <= SAME).all(), (differs_turned[away] <= SAME).all())
     judged = rows.assign(

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from bench.base.on_first_use import Turn, pd
+from bench.base.on_first_use import ScipyRotation, pd
 from bench.findings.claims.tables import Results, evidence, some
 from bench.findings.claims.verdict import Evidence, Word
 from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM, hybrid
@@ -88,7 +88,7 @@ def beside_base(results: Results, representation: str, orders: tuple[str, ...], 
         )
     both = both[both["complies"].isin(orders)].reset_index(drop=True)
     angles = both[["alpha", "beta", "gamma"]].to_numpy()
-    from_zero = Turn.from_euler("ZYX", angles).magnitude()
+    from_zero = ScipyRotation.from_euler("ZYX", angles).magnitude()
     return both.assign(cos_beta=np.cos(both["beta"]), from_zero=from_zero)
 
 
