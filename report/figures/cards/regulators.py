@@ -120,7 +120,7 @@ def card(one: Contender, run: Run) -> str:
         "Recommended": set_words(advised(one.name)),
         "Constants that are ours": set_words(describe_constants(one.name)),
     }
-    look, costs = html.both(style.look(one.name).colour), costs_of(one, run)
+    look, costs = html.light_dark_css(style.look(one.name).colour), costs_of(one, run)
     shown = costs.to_html(index=False, classes="plain", border=0, formatters=[html.cell] * len(costs.columns))
     caption = '<p class="card-fact">Operations of one control step, by stage of the computation:</p>'
     costs_table = f'{caption}<div class="card-costs" tabindex="0">{shown}</div>'
@@ -232,7 +232,7 @@ def line(one: Contender, run: Run) -> tuple:
     return (
         families.link(one.name, laws.title_of(one)),
         one.attribution,
-        html.MISSING if law.costing_only else html.together(html.foreign(stability)),
+        html.MISSING if law.costing_only else html.no_break(html.escape_untrusted(stability)),
         (uniform["outcome"] == "settled").mean() if len(uniform) else None,
         f"`{one.name}`",
     )

@@ -109,7 +109,7 @@ def list_held(run: Run) -> dict[str, float]:
 def count_lost(rows: pd.DataFrame) -> str:
     """Return "25 of 666" or "none of 372" for the starts that do not settle."""
     lost = int((rows["outcome"] != "settled").sum())
-    return html.together(f"{lost or 'none'} of {len(rows)}")
+    return html.no_break(f"{lost or 'none'} of {len(rows)}")
 
 
 def common(episodes: pd.DataFrame) -> pd.DataFrame:
@@ -160,7 +160,7 @@ def spelled(found: Estimate, write: Callable[[float], str]) -> str:
 
 def with_interval(value: str, low: str, high: str) -> str:
     """Return a number, and its interval, which no line breaks."""
-    return f"{value} {html.together(f'({low} to {high})')}"
+    return f"{value} {html.no_break(f'({low} to {high})')}"
 
 
 def directed_starts(episodes: pd.DataFrame) -> pd.DataFrame:
