@@ -12,7 +12,7 @@ from bench.base.on_first_use import pd
 from bench.experiments import episodes
 from bench.experiments.episode_rows import TABLE
 from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit
-from bench.experiments.rounding import judged_beside
+from bench.experiments.rounding import rerun_nudged
 from bench.experiments.suites import AT_INVERSES, BY_WORD_ALONE, IDEAL_MOTORS, NOMINAL, SLOW
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
@@ -100,9 +100,10 @@ def _check_combinations(asked: Asked) -> None:
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """Return the rows of a unit, each doubtful one judged beside its start too."""
-    starts, again = episodes.starts_of(settings, unit), functools.partial(episodes.rows_from, settings, unit)
-    return judged_beside(again(starts), starts, again)
+    """Return the rows of a unit; each doubtful episode is also run from a start 1e-12 rad away."""
+    starts = episodes.starts_of(settings, unit)
+    simulate = functools.partial(episodes.rows_from, settings, unit)
+    return rerun_nudged(simulate(starts), starts, simulate)
 
 
 EXPERIMENT = Experiment.of(

@@ -14,7 +14,7 @@ from bench.engines.metrics.metric import Ending, Metric
 from bench.engines.metrics.registry import known_metrics, metrics_of
 from bench.experiments.columns import of_metrics, read_table
 from bench.experiments.experiment import Settings, Unit
-from bench.experiments.rounding import BESIDE, CHANGE
+from bench.experiments.rounding import OUTCOME_NUDGED, ROUNDING_CHANGE
 from bench.law.contenders.representations.zyx_euler import chart
 from bench.law.so3 import from_quaternion
 from tasks.base import Start
@@ -66,8 +66,8 @@ def frame(settings: Settings, unit: Unit, starts: list[Start], numbers: np.ndarr
             **found,
             "cond_jacobian_max": seen,
             "cause": [cause(*near) if unit.arm else "" for near in zip(ran["outcome"], margins, seen, strict=True)],
-            BESIDE: "",
-            CHANGE: np.nan,
+            OUTCOME_NUDGED: "",
+            ROUNDING_CHANGE: np.nan,
         }
     )
 

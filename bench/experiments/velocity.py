@@ -111,8 +111,11 @@ def rows(settings: Settings, unit: Unit) -> dict:
     }
     if unit.arm:
         changed = [OUTCOME, PATH, FURTHEST, PEAK, RATE, OFF]
-        beside = np.vstack([_run(settings, unit, part, [nudged(one, NUDGE) for one in part.starts]) for part in every])
-        found |= compare_beside(made[:, changed], beside[:, changed])
+        there = []
+        for part in every:
+            nudged_starts = [nudged(start, NUDGE) for start in part.starts]
+            there.append(_run(settings, unit, part, nudged_starts))
+        found |= compare_nudged(made[:, changed], np.vstack(there)[:, changed])
     else:
         found |= {"rounding_change": np.nan, "outcome_beside": ""}
     return found
@@ -147,12 +150,20 @@ def _run(settings: Settings, unit: Unit, part: Part, some: list[Start]) -> np.nd
     return run(one, limit, K, some, settings.limits(unit.horizon_s), unit.arm, part.lag_s)
 
 
-def compare_beside(numbers: np.ndarray, beside: np.ndarray) -> dict:
-    """Return what 1e-12 rad made of each row, the outcome and then numbers: the largest change, and another outcome."""
-    was, now = numbers[:, 1:], beside[:, 1:]
+def compare_nudged(here: np.ndarray, there: np.ndarray) -> dict:
+    """Compare each row with the row of the run from a start 1e-12 rad away.
+
+    Args:
+        here: A row an episode: the code of its outcome, then numbers.
+        there: The same of the episodes from the nudged starts.
+
+    Returns:
+        The largest relative change of a number, and the outcome there if it is another one.
+    """
+    was, now = here[:, 1:], there[:, 1:]
     with np.errstate(invalid="ignore"):
         change = np.abs(now - was) / np.maximum(np.abs(was), 1e-6)
-    outcomes = ([OUTCOMES[int(code)] for code in each[:, 0]] for each in (numbers, beside))
+    outcomes = ([OUTCOMES[int(code)] for code in each[:, 0]] for each in (here, there))
     return {
         "rounding_change": np.nan_to_num(change, nan=math.inf, posinf=math.inf).max(axis=1),
         "outcome_beside": [other if other != one else "" for one, other in zip(*outcomes, strict=True)],
