@@ -16,6 +16,7 @@ from bench.experiments.tables.schema import RESULTS
 from bench.law.contender import Contender
 from bench.law.contenders import registry
 from bench.law.contenders.described_law import described
+from bench.law.contenders.law_file import note_former_fields
 from bench.law.kinds import Law
 from bench.running.schedulers import THREADS
 
@@ -210,7 +211,17 @@ def own_laws(files: Files) -> tuple[Law, ...]:
     for name in names:
         if names.count(name) > 1:
             raise click.UsageError(f"two --law files name their regulator '{name}'; give each its own name")
+    for law in own:
+        _note_former_fields(law.origin, law.text)
     return own
+
+
+@functools.cache
+def _note_former_fields(path: str, text: str) -> None:
+    """Print once what a law file should write in place of former names."""
+    note = note_former_fields(text)
+    if note:
+        click.echo(f"--law {path}: {note}", err=True)
 
 
 def find_law(word: str) -> Law:

@@ -71,7 +71,7 @@ def _is_told_apart(one: Contender, axis: str, part: Robustness, choice: Choice) 
 def _takes_part(one: Contender, part: Robustness, choice: Choice) -> bool:
     """Tell whether it is a law on R or on the paper's coordinates, a user's, or named; and no actuator of MuJoCo's."""
     is_wanted = bool(one.regulator.origin or choice.regulators or choice.representations)
-    is_usual = not one.is_elsewhere or part.others is None or one.name in part.others
+    is_usual = not one.uses_nonpaper_coordinates or part.others is None or one.name in part.others
     return (is_wanted or is_usual) and not one.regulator.in_engine
 
 

@@ -73,7 +73,8 @@ def velocity_laws(asked: Asked) -> list[Contender]:
     return [
         one
         for one in laws(asked)
-        if is_velocity_law(one) and (is_named or one.regulator.origin or not one.is_elsewhere)
+        if is_velocity_law(one)
+        and (is_named or one.regulator.origin or not one.uses_nonpaper_coordinates)
     ]
 
 

@@ -58,12 +58,21 @@ def in_order() -> list[Law]:
     """Return the paper's three regulators, its variants by name, the later ones by name, the user's own of the run."""
     first = [one.regulator for one in papers_laws()]
     others = [one for one in contenders("regulators").values() if one not in first]
-    return [*first, *sorted(others, key=lambda one: (one.later, one.name)), *read.own_laws()]
+    return [
+        *first,
+        *sorted(others, key=lambda one: (one.is_beyond_the_paper, one.name)),
+        *read.own_laws(),
+    ]
 
 
 def every_law() -> list[Contender]:
     """Return each law in each of its coordinates, the paper's own first; the run's own laws are among them."""
-    return [one for law in in_order() for one in sorted(contenders_of(law), key=lambda one: one.is_elsewhere)]
+    every = []
+    for law in in_order():
+        every += sorted(
+            contenders_of(law), key=lambda contender: contender.uses_nonpaper_coordinates
+        )
+    return every
 
 
 def source(regulator: Law) -> Source:
