@@ -194,7 +194,7 @@ def _answer_other_robot(robot: str) -> Reply:
         return Reply([Paragraph("Which law", (text,))], None)
     tied = f", tied with {listed(verdict.tied)}" if verdict.tied else ""
     text = (
-        f"Use {verdict.law}{tied}. Your robot takes {kind.takes}; {counted(verdict.asked, 'law')} of "
+        f"Use {verdict.law}{tied}. Your robot takes {kind.takes}; {counted(verdict.eligible, 'law')} of "
         f"results/reference ({kind.rows}) meet the requirements, and were compared by the rule of the map. Gains, "
         "bound and timing do not enter here: laws of first order have one gain, and its time scale is 1/K."
     )

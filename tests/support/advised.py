@@ -75,7 +75,13 @@ class Asked:
 
 def unordered(verdict: Verdict):
     """Return a verdict as `Asked.decide` has it: our own laws in no order."""
-    return verdict.law, verdict.tied, frozenset(verdict.ours), frozenset(verdict.faster), verdict.asked
+    return (
+        verdict.law,
+        verdict.tied,
+        frozenset(verdict.ours),
+        frozenset(verdict.faster),
+        verdict.eligible,
+    )
 
 
 def simplicity(law):

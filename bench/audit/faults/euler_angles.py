@@ -43,7 +43,7 @@ class Angles(NamedTuple):
 
 @functools.lru_cache(maxsize=2)
 def find_angles(examined: Examined) -> Angles | None:
-    """Return the sequence whose angles e is, or whose difference; None if it is no such thing."""
+    """Return the Euler sequence that explains e, as angles or as their difference; or None."""
     if examined.form:
         return None
     here = examined.pairs.chosen(examined.at("wide"))

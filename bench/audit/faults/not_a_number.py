@@ -12,7 +12,7 @@ ENDLESS = "far from the goal the command is greater than any motor has, and at 1
 
 
 def find(examined: Examined) -> Found | None:
-    """Three numbers of which one is none; or a form without end."""
+    """Find answers that are not finite, or a form that is infinite at 180°."""
     if examined.form == "gibbs":
         last = int(np.argmin(np.where(examined.at("near-180"), examined.pairs.distance, np.inf)))
         text = f"its form, 2 tan(θ/2), has no end: |e| = {examined.size[last]:.1g} next to 180°"

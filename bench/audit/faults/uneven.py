@@ -20,7 +20,7 @@ SMALLEST_RAD = 1e-4
 
 
 def find(examined: Examined) -> Found | None:
-    """Most sizes are those of a form, and some are not, along the axis all the same."""
+    """Find pairs whose answer has the right axis and the wrong length."""
     if not examined.form:
         return None
     right = np.linalg.norm(examined.truth, axis=1)

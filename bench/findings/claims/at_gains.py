@@ -12,7 +12,7 @@ from typing import Any
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.amounts import join_words
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results, evidence
-from bench.findings.claims.verdict import Evidence, NoEvidence, Word, does
+from bench.findings.claims.verdict import Evidence, NoEvidence, Word, verb_phrase
 from bench.law.inputs import Gains
 
 REFERENCE = RESULTS / "reference"
@@ -94,7 +94,7 @@ def _measured(own: Gains, found: dict[Gains, tuple[Word, Evidence]]) -> str:
             others.setdefault(word, []).append(gains)
     parts = [f"At {_told(own)}: {said.measured}"]
     for word, at in others.items():
-        parts.append(f"At {_told_all(at)}, the claim {does(word, 1)}.")
+        parts.append(f"At {_told_all(at)}, the claim {verb_phrase(word, 1)}.")
     return " ".join(parts)
 
 

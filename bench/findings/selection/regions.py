@@ -82,16 +82,19 @@ PAIRED = ("time", "missed")
 class Verdict(NamedTuple):
     """What the rule makes of a situation.
 
-    law: the one that is advised, None if none is left. tied: the others that nothing beats, the simplest first. ours:
-    our own laws that no other law beats. faster: those of them that beat the advised one. asked: how many laws
-    have what is required.
+    Attributes:
+        law: The law that is advised; None if none is left.
+        tied: The others that nothing beats, the simplest first.
+        ours: Our own laws that no other law beats.
+        faster: Those of our own laws that beat the advised one.
+        eligible: Number of laws that meet the requirements.
     """
 
     law: str | None
     tied: tuple[str, ...] = ()
     ours: tuple[str, ...] = ()
     faster: tuple[str, ...] = ()
-    asked: int = 0
+    eligible: int = 0
 
     @property
     def unbeaten(self) -> frozenset[str]:

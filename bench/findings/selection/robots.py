@@ -87,13 +87,20 @@ def list_elsewhere() -> list[Elsewhere]:
     uneven = answer(UNCANCELLED).verdict
     stores, jumps = Rule(forgetful=True), Rule(continuous=True)
     found = [
-        Elsewhere("you command torques, and cancel no inertia", uneven.law or "none", uneven.tied, uneven.asked),
-        Elsewhere("your controller stores nothing between control periods", find_default(rule=stores)),
+        Elsewhere(
+            "you command torques, and cancel no inertia",
+            uneven.law or "none",
+            uneven.tied,
+            uneven.eligible,
+        ),
+        Elsewhere(
+            "your controller stores nothing between control periods", find_default(rule=stores)
+        ),
         Elsewhere("the command must be continuous", find_default(rule=jumps)),
     ]
     for robot in ROBOTS.values():
         verdict = decide_for(robot)
         if verdict and verdict.law:
             words = f"your robot takes {robot.takes}"
-            found.append(Elsewhere(words, verdict.law, verdict.tied, verdict.asked))
+            found.append(Elsewhere(words, verdict.law, verdict.tied, verdict.eligible))
     return found

@@ -31,11 +31,11 @@ Called = Callable[[str], str]
 
 def standing(verdict: Verdict, called: Called) -> str:
     """Say that the advised law alone is unbeaten, or with which laws it ties."""
-    if verdict.asked == 1:
+    if verdict.eligible == 1:
         return "No other law of this run meets the requirements."
     if not verdict.tied:
         return (
-            f"{verdict.asked} laws meet the requirements. Each of the other published and adapted laws is more than "
+            f"{verdict.eligible} laws meet the requirements. Each of the other published and adapted laws is more than "
             f"{percent(RULE.tie)} slower than one of these laws; the advised law is not."
         )
     return f"The law ties with {together([called(law) for law in verdict.tied])} and is the simplest of these laws."

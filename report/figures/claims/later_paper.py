@@ -21,7 +21,7 @@ def facts(run: Run) -> dict[str, Any]:
     verdicts = claims.judge_each(run, PAPER)
     return {
         "count": len(verdicts),
-        "words": claims.told(verdict.word for verdict in verdicts),
+        "words": claims.format_tally(verdict.word for verdict in verdicts),
         "kept": f"{KEPT_DEG:.0f}",
         "read": typeset(" ".join(WHAT_WE_READ.split())),
         "verdicts": VERDICTS(map(describe, verdicts)),
