@@ -35,19 +35,19 @@ def time(word: object) -> float:
     return seconds
 
 
-BOUND = options.Number(1e-9, 1e9, 30, infinite="no bound")
+BOUND = options.NumberOption(1e-9, 1e9, 30, infinite="no bound")
 """[rad/s^2]: the lowest turns a body by a radian in half a day, the highest is a thousand times the judge's limit."""
 
-RATE = options.Number(1e-3, 1e7, 1000)
+RATE = options.NumberOption(1e-3, 1e7, 1000)
 """[Hz]: the shortest control period of a run is a microsecond; a tick in more than 1000 s comes after every horizon."""
 
-SPIN = options.Number(0.0, 1e4, 1)
+SPIN = options.NumberOption(0.0, 1e4, 1)
 """[rad/s]: the judge's speed limit, above which an orientation can no longer be followed at 1 kHz."""
 
-INERTIA = options.Number(1e-3, 1e3, 1)
+INERTIA = options.NumberOption(1e-3, 1e3, 1)
 """True over assumed: a factor of a thousand is another robot."""
 
-UNEVENNESS = options.Number(0.0, 0.5, 0.3)
+UNEVENNESS = options.NumberOption(0.0, 0.5, 0.3)
 """Above 0.5 the smallest of 1 - s, 1, 1 + s is less than the difference of the others, which no body has."""
 
 

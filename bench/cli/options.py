@@ -49,7 +49,7 @@ class NewFile(click.Path):
 NEW_FILE = NewFile(path_type=Path)
 
 
-class Number(click.ParamType):
+class NumberOption(click.ParamType):
     """A number within bounds. Click's own FloatRange takes NaN, which is neither below nor above any bound.
 
     Args:
@@ -115,22 +115,22 @@ def _short(number: float) -> str:
     return str(number) if isinstance(number, int) else f"{number:g}"
 
 
-KP = Number(1e-6, 1e6, 100)
+KP = NumberOption(1e-6, 1e6, 100)
 """Position gain [1/s^2]. The time scale of a motion is 1/sqrt(kp): below 1e-6 it is more than 1000 s, the longest
 horizon; above 1e6 it is shorter than the usual control period of 1 ms."""
 
-KV = Number(1e-6, 1e6, 20)
+KV = NumberOption(1e-6, 1e6, 20)
 """Velocity gain [1/s]. Bounded alike: 1/kv is the time in which a speed decays."""
 
-PERIOD = Number(SHORTEST_DT_S, LONGEST_DT_S, 0.001)
-HORIZON = Number(SHORTEST_DT_S, 1000.0, 10)
+PERIOD = NumberOption(SHORTEST_DT_S, LONGEST_DT_S, 0.001)
+HORIZON = NumberOption(SHORTEST_DT_S, 1000.0, 10)
 """Simulated seconds; that it has at least one tick is checked with the period (choice.check_numbers)."""
 
-SEED = Number(0, 2**32 - 1, 0, is_whole=True)
-COUNT = Number(1, MOST_STARTS, 100, is_whole=True)
-WORKERS = Number(1, MOST_WORKERS, os.cpu_count() or 1, is_whole=True)
+SEED = NumberOption(0, 2**32 - 1, 0, is_whole=True)
+COUNT = NumberOption(1, MOST_STARTS, 100, is_whole=True)
+WORKERS = NumberOption(1, MOST_WORKERS, os.cpu_count() or 1, is_whole=True)
 
-LAW_LIMIT = Number(0.01, 86_400.0, 30)
+LAW_LIMIT = NumberOption(0.01, 86_400.0, 30)
 """Processor time [s] for a unit of a user's law: from a hundredth, in which no process of it starts, to a day."""
 
 Words: TypeAlias = tuple[str, ...]

@@ -40,7 +40,7 @@ class Controller(NamedTuple):
     Attributes:
         begin: begin(laws, memory0, sensed) -> (memory, action before the first).
         command: command(laws, body, sensed, now, gains, memory, numbers) -> (action, memory), where
-            now is a Tick.
+            now is an EpisodeTick.
     """
 
     begin: Callable
@@ -104,7 +104,7 @@ class Action(NamedTuple):
 NO_ACTION = Action(AT_REST, AT_REST, 0.0, math.nan, GOING)
 
 
-class Tick(NamedTuple):
+class EpisodeTick(NamedTuple):
     """A tick of an episode.
 
     Attributes:
@@ -196,7 +196,7 @@ def episodes_of(plant: Plant, controller: Controller, record: Record):
             memory, action = begin(laws, memory0, sensed)
             tick, failure = 0, sensed.ended_by
             while tick < numbers.ticks and watch.quiet < numbers.hold_ticks and failure == GOING:
-                before, now = action.u, Tick(k, tick, watch.entries > 0, watch.rest > 0)
+                before, now = action.u, EpisodeTick(k, tick, watch.entries > 0, watch.rest > 0)
                 action, memory = command(laws, body, sensed, now, gains, memory, numbers)
                 see(row, curves, now, body, sensed, action, before, numbers)
                 failure = action.failure

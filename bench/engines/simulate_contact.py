@@ -9,7 +9,7 @@ import numpy as np
 from bench.base.errors import BadNumber, UnknownWord
 from bench.engines import contact_episode, reference
 from bench.engines.compiled import TOUCH, compile_function, compile_once, register
-from bench.engines.contact_episode import BROKEN, TIME, USUAL, Conditions, Ended, made
+from bench.engines.contact_episode import BROKEN, TIME, USUAL, Conditions, EndedEpisode, made
 from bench.engines.episode import FAILURE_TICK, FIRST_METRIC, NEVER, OUTCOME, START_WIDTH
 from bench.engines.mujoco_view import compiled_view
 from bench.engines.native import trapped
@@ -30,8 +30,8 @@ ENGINES = ("native", "reference")
 def run_contact(
     engine: str, controller: ContactController, task: ContactTask, arm: Arm, trials: Iterable[Trial],
     conditions: Conditions = USUAL, contact: ContactModel = STANDARD,
-) -> Iterator[Ended]:  # fmt: skip
-    """Yield one `Ended` a trial, in order, by the engine "native", or "reference" for dm_control's own loop.
+) -> Iterator[EndedEpisode]:  # fmt: skip
+    """Yield one `EndedEpisode` a trial, in order, by the engine "native", or "reference" for dm_control's own loop.
 
     Errors, before the first episode begins:
         UnknownWord: the engine or the integrator. BadNumber: a constant of the controller, or the control period.
@@ -69,7 +69,7 @@ def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: Con
 
 def _episode(
     scene: Any, controller: ContactController, task: ContactTask, arm: Arm, trial: Trial, conditions: Any, contact: Any
-) -> Ended:
+) -> EndedEpisode:
     shape = contact_episode.numbers(controller, task, trial, arm.rated, conditions)
     limits = contact_episode.limits(task, conditions)
     record = np.full((limits.ticks, contact_episode.WIDTH), np.nan)

@@ -24,7 +24,7 @@ from bench.findings.selection.regions import (
     OVERSHOOT,
     STUDY,
     Rule,
-    Verdict,
+    RuleVerdict,
     facts_of,
     find_default,
     find_regions,
@@ -290,7 +290,7 @@ _CONTROLLERS = {
 }
 
 
-def _describe_verdict(verdict: Verdict) -> str:
+def _describe_verdict(verdict: RuleVerdict) -> str:
     if verdict.eligible == 1:
         return "no other law that was tried meets the requirements"
     if verdict.tied:

@@ -157,7 +157,7 @@ def count_single_axes(results: Results) -> Share:
     )
 
 
-class Examined(NamedTuple):
+class ExaminedLaws(NamedTuple):
     """The laws of a run by the tests of C27, the fewest operations first, and what is known of their cost."""
 
     laws: dict[str, Adequacy]
@@ -173,13 +173,13 @@ class Examined(NamedTuple):
         ]
 
 
-def examine_laws(results: Results) -> Examined:
+def examine_laws(results: Results) -> ExaminedLaws:
     """Return every law of a run by C27's tests, as the claim does; NoEvidence: the run lacks starts or costs."""
     laws = {one.name: one for one in every(results, MAIN_ENGINE)}
     ledger, small_s = of_three(results), linear_settling(*results.gains())
     by_noise = held(results, HELD_RAD)
     tested = {name: examine(law, ledger, small_s, by_noise) for name, law in laws.items()}
-    return Examined(laws, tested, ledger, small_s)
+    return ExaminedLaws(laws, tested, ledger, small_s)
 
 
 def time_over(ledger: Ledger, name: str, other: str) -> Estimate | None:

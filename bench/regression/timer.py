@@ -131,7 +131,7 @@ class SideFailed(Incompatible):
 
 
 @dataclass
-class Run:
+class TimerProcess:
     """A process of pytest, and the log that it writes.
 
     Attributes:
@@ -243,7 +243,7 @@ def _start(
     options: list[str],
     sockets: list[int],
     place: Path,
-) -> Run:
+) -> TimerProcess:
     """Start the process of a side, which ends with the stack; place: its files, without suffix."""
     variables = dict(os.environ)
     token = secrets.token_hex(8)
@@ -279,10 +279,10 @@ def _start(
         stack.callback(end_all, token)
     stack.callback(process.wait)
     stack.callback(process.kill)
-    return Run(process, Path(log.name), place.with_suffix(".json"))
+    return TimerProcess(process, Path(log.name), place.with_suffix(".json"))
 
 
-def _wait_for(runs: list[Run], report: Callable[[Progress], None]) -> int | None:
+def _wait_for(runs: list[TimerProcess], report: Callable[[Progress], None]) -> int | None:
     """Wait for all processes; return the place of one that failed, the last one if all are silent."""
     while True:
         # First this, then the output: what a process says last is read before it is judged.

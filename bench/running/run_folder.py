@@ -26,7 +26,7 @@ from bench.experiments.tables import packed, trust
 from bench.experiments.tables.store import check
 
 
-class State(NamedTuple):
+class FolderState(NamedTuple):
     """What a results folder holds of a plan; spoiled: units whose parts are not as a run of it wrote them."""
 
     finished: bool
@@ -51,11 +51,11 @@ def open_run_folder(out: Path) -> Iterator[None]:
                 out.rmdir()
 
 
-def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
+def inspect(plan: Plan, out: Path, replace: bool = False) -> FolderState:
     """Return what is done already in `out`, untouched; BadResults if it holds another plan, or is no run of ours."""
     out = Path(out)
     if not _content(out):
-        return State(False, frozenset())
+        return FolderState(False, frozenset())
     for path in _content(out):
         refuse_link(path)
     if not (out / "plan.json").is_file():
@@ -67,7 +67,7 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
     is_whole = found == digest_of(content)
     if not is_whole or found != plan.digest:
         if replace:
-            return State(False, frozenset())
+            return FolderState(False, frozenset())
         is_other = f"holds another plan ({describe_difference(content, plan.identity())})"
         was_changed = "has a plan.json that was edited or damaged: its digest is not that of what it says"
         raise BadResults(
@@ -80,10 +80,10 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
     for path, table in tables.items() if finished else ():
         check(path, table)
     if finished:
-        return State(True, frozenset(unit.key for unit in plan.units))
+        return FolderState(True, frozenset(unit.key for unit in plan.units))
     found = [unit for unit in plan.units if os.path.lexists(part(out, unit))]
     done = frozenset(unit.key for unit in found if is_sound(plan, out, unit))
-    return State(False, done, tuple(unit for unit in found if unit.key not in done))
+    return FolderState(False, done, tuple(unit for unit in found if unit.key not in done))
 
 
 def describe_difference(kept: dict, wanted: dict) -> str:

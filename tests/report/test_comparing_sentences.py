@@ -6,7 +6,7 @@ import pytest
 
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.perturbed import Direction, Threshold
-from bench.findings.selection.regions import Verdict
+from bench.findings.selection.regions import RuleVerdict
 from bench.findings.selection.run_rows import compare_run
 from bench.findings.selection.words import describe_lacks, standing
 from report.figures.arms import arms
@@ -60,7 +60,7 @@ def plant_thresholds(*held):
 
 def plant_decision(tied, eligible):
     """State whether the advised law is alone."""
-    return standing(Verdict("a", tied, eligible=eligible), str)
+    return standing(RuleVerdict("a", tied, eligible=eligible), str)
 
 
 def plant_loops(**columns):

@@ -13,7 +13,7 @@ import numpy as np
 from bench.engines import contact_episode
 from bench.engines.arm_episode import MOST, cut, load, squared
 from bench.engines.arrays import Integers, Matrix, Vector
-from bench.engines.contact_episode import BROKEN, RESTED, Numbers, setpoint, wrench
+from bench.engines.contact_episode import BROKEN, RESTED, ContactNumbers, setpoint, wrench
 from bench.engines.loop import NO_ACTION, Action, Controller, Plant, Record, Sensed, episodes_of
 from bench.engines.mujoco_view import Simulated, fill_inertia
 from bench.engines.native.trapped import BEGIN, RUNGE_KUTTA, STEP, advance_trapped
@@ -57,7 +57,7 @@ class ContactWorld(NamedTuple):
     callback: int
     asked: Integers
     work: ContactWork
-    shape: Numbers
+    shape: ContactNumbers
     touch: ContactParameters
     record: Matrix
     noise: Matrix

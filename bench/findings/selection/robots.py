@@ -13,7 +13,7 @@ from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.nearest import answer
-from bench.findings.selection.regions import Rule, Verdict, decide, find_default
+from bench.findings.selection.regions import Rule, RuleVerdict, decide, find_default
 from bench.findings.selection.run_rows import Compared, compare_arms, compare_positions, compare_velocities
 from bench.findings.subjects import SentenceSubject
 from tasks.situation import UNCANCELLED
@@ -64,7 +64,7 @@ def compare_for(robot: Robot, folder: Path) -> Compared:
     return robot.compare(Results(folder))
 
 
-def decide_for(robot: Robot, folder: Path = RUN) -> Verdict | None:
+def decide_for(robot: Robot, folder: Path = RUN) -> RuleVerdict | None:
     """Return what is advised for a robot by the run in a folder; None where the run has no such rows."""
     try:
         compared = compare_for(robot, folder)

@@ -7,13 +7,21 @@ from pathlib import Path
 
 from bench.findings.amounts import count, join_words
 from bench.findings.selection.pairs import find_slower
-from bench.findings.selection.regions import RULE, STUDY, Rule, Verdict, find_overshooting, list_ours, meets
+from bench.findings.selection.regions import (
+    RULE,
+    STUDY,
+    Rule,
+    RuleVerdict,
+    find_overshooting,
+    list_ours,
+    meets,
+)
 from bench.findings.selection.run_rows import Compared
 from bench.findings.selection.tables import Tables
 from bench.findings.selection.unbeaten import (
     SPOKEN,
-    Place,
     Rival,
+    ValueOnLine,
     compare_with_advised,
     find_population,
     find_price,
@@ -29,7 +37,7 @@ NAMED = 3
 Called = Callable[[str], str]
 
 
-def standing(verdict: Verdict, called: Called) -> str:
+def standing(verdict: RuleVerdict, called: Called) -> str:
     """Say that the advised law alone is unbeaten, or with which laws it ties."""
     if verdict.eligible == 1:
         return "No other law of this run meets the requirements."
@@ -125,7 +133,9 @@ def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:
     return "; ".join(parts) or "nowhere"
 
 
-def describe_rivals(lines: dict[str, list[Place]], among_all: bool, called: Called = str) -> str:
+def describe_rivals(
+    lines: dict[str, list[ValueOnLine]], among_all: bool, called: Called = str
+) -> str:
     """Say where laws of a set are faster, in brackets which one by the most, and by how much of the time.
 
     lines: of `unbeaten.follow_lines`. among_all: of all published and adapted laws, else of those that meet the

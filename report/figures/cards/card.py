@@ -76,14 +76,16 @@ class LawPage(NamedTuple):
     files: dict[str, str]
 
 
-class Source(NamedTuple):
+class SourceFile(NamedTuple):
     """A contender's file on this machine, and its path as a reader sees it."""
 
     file: Path
     where: str
 
 
-def make_page(name: str, title: str, card: str, source: Source, word: str = "", live: str = "") -> LawPage:
+def make_page(
+    name: str, title: str, card: str, source: SourceFile, word: str = "", live: str = ""
+) -> LawPage:
     """Return the page of a law; word: by which it is exported, or empty; live: the page on which it runs."""
     subject = find_subject(word) if word else None
     languages = map(find_language, language_words() if word else ())
@@ -190,7 +192,7 @@ def show_short(word: str) -> str:
     return f"<h2>The law in NumPy</h2><p>{others}</p>{colour(code)}" if code else ""
 
 
-def show_code(source: Source) -> str:
+def show_code(source: SourceFile) -> str:
     """Return the function that is the law, without its docstring; nothing of a file that has none or is no Python."""
     text = source.file.read_text(encoding="utf-8", errors="replace")
     try:
@@ -212,7 +214,7 @@ def colour(code: str) -> str:
     return f'<div class="highlight"><pre tabindex="0">{coloured}</pre></div>'
 
 
-def fold(source: Source) -> str:
+def fold(source: SourceFile) -> str:
     """Return a file's text behind its name."""
     text = source.file.read_text(encoding="utf-8", errors="replace")
     return (

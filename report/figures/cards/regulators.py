@@ -23,7 +23,15 @@ from bench.law.contender import Contender
 from bench.law.contenders import regulators
 from bench.law.contenders.registry import contenders, contenders_of, papers_laws
 from bench.law.kinds import Law
-from report.figures.cards.card import LawPage, Source, docstring, make_card, make_page, say_property, set_words
+from report.figures.cards.card import (
+    LawPage,
+    SourceFile,
+    docstring,
+    make_card,
+    make_page,
+    say_property,
+    set_words,
+)
 from report.figures.cards.constants import describe_constants
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run
@@ -33,7 +41,7 @@ UNTRUSTED = (
     "page has its results only. If you have read the file, `bench trust FILE` lets it run, and "
     "this page then describes the law."
 )
-LAWS = html.Table(
+LAWS = html.PageTable(
     "Law | Origin | Stability | Uniform starts from which the body settles | Name on the command line",
     {"Uniform starts from which the body settles": lambda share: f"{100 * share:.1f} %"},
 )
@@ -75,12 +83,14 @@ def every_law() -> list[Contender]:
     return every
 
 
-def source(regulator: Law) -> Source:
+def source(regulator: Law) -> SourceFile:
     """Return a law's own file."""
     name = f"{regulator.name.replace('-', '_')}.py"
     if regulator.origin:
-        return Source(Path(regulator.origin), f"laws/{name}")
-    return Source(Path(regulators.__path__[0]) / name, f"bench/law/contenders/regulators/{name}")
+        return SourceFile(Path(regulator.origin), f"laws/{name}")
+    return SourceFile(
+        Path(regulators.__path__[0]) / name, f"bench/law/contenders/regulators/{name}"
+    )
 
 
 def text_of(regulator: Law, coordinates: str = "") -> tuple[str, str]:

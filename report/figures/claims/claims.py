@@ -13,7 +13,9 @@ from report.figures.kit.law_names import call_laws
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose
 
-VERDICTS = html.Table("Claim | What the paper states, in our words | Verdict | What we measured | Shown in")
+VERDICTS = html.PageTable(
+    "Claim | What the paper states, in our words | Verdict | What we measured | Shown in"
+)
 
 LOOKS = {**html.VERDICTS, Word.DEPENDS: "depends", Word.READING: "reading"}
 """Verdict -> class of its square: no two verdicts look alike."""

@@ -13,7 +13,9 @@ from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose, typeset
 
 PAPER = "lopez-slotine-2024"
-VERDICTS = html.Table("Claim | What the paper states, in our words | Verdict | What we measured")
+VERDICTS = html.PageTable(
+    "Claim | What the paper states, in our words | Verdict | What we measured"
+)
 
 
 def facts(run: Run) -> dict[str, Any]:

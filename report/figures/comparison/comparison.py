@@ -20,7 +20,7 @@ from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
 
-ALL_LAWS = html.Table(
+ALL_LAWS = html.PageTable(
     "Law | Starts that settle [%] | Settling time for 50 % of starts [s] | Settling time for 99 % of starts [s] | "
     "Median effort [rad²/s³] | Peak command [rad/s²] | Operations + function calls per control step | "
     "Directed starts from which the body never settles | "

@@ -127,7 +127,7 @@ def formula(tex: str) -> str:
         return f'<div class="math"><code>{escape_untrusted(tex)}</code></div>'
 
 
-class Table:
+class PageTable:
     """A table of a page, in Markdown: numbers to the right, words to the left, gaps as a dash.
 
         TIMES = Table("Law | Starts | Settled [%]:.1f | Error", {"Error": power})

@@ -22,13 +22,13 @@ WEAK = 0.75
 """Share of the stiffness set: what feels less feels as half, or as a deadband."""
 HOST = "https://github.com"
 
-MEASURED = html.Table(
+MEASURED = html.PageTable(
     "Controller | Gains K, D | Stiffness at 0.06°, 3° and 57° [% of K] | Damping ratio:.3g | "
     "Inertia for critical damping [kg m²]:.2g | Starts at 180° that the body never leaves | "
     "Starts with unwinding | Largest change of the command's direction by a clip [°]:.0f | "
     "Settling time from 1°, 90° and 179.9° [s]"
 )
-FIXES = html.Table(
+FIXES = html.PageTable(
     "Controller | Stiffness at 3° [% of K]:.0f | Starts at 180° that the body never leaves | "
     "Smallest fix | Largest command as shipped → with the fix"
 )

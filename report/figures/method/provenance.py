@@ -18,8 +18,10 @@ from report.figures.kit.offered import OFFERED_BYTES, SITE_DATA
 from report.figures.kit.page import Run
 
 CITATION = ROOT / "CITATION.cff"
-FACTS = html.Table("Property of the run | Value")
-FILES = html.Table("File | Number of rows | Size [kB]", {"Size [kB]": lambda size: html.number(round(size))})
+FACTS = html.PageTable("Property of the run | Value")
+FILES = html.PageTable(
+    "File | Number of rows | Size [kB]", {"Size [kB]": lambda size: html.number(round(size))}
+)
 EPISODES = {
     "episodes": "Episodes of a free body or an arm",
     "trials": "Episodes in contact",

@@ -12,8 +12,8 @@ from report.figures.kit.law_names import call_laws
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose
 
-SHORT = html.Table("Murphy (1988) concluded | Our verdict | What we measured | Figure")
-FULL = html.Table("Murphy's words | Claims | Our verdict | What we measured | Figure")
+SHORT = html.PageTable("Murphy (1988) concluded | Our verdict | What we measured | Figure")
+FULL = html.PageTable("Murphy's words | Claims | Our verdict | What we measured | Figure")
 
 FIGURES = {
     "three-laws": "fig-three-laws",

@@ -29,7 +29,7 @@ from report.figures.kit.page import Run, in_run
 
 AXES = tuple(tasks.axis_names())
 
-WEAKER = html.Table("Law | Perturbation | Threshold of this law | Threshold of the other laws")
+WEAKER = html.PageTable("Law | Perturbation | Threshold of this law | Threshold of the other laws")
 
 Found = dict[str, dict[Direction, Threshold]]
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from bench.engines.metrics.contact_metric import ContactMetric, Pose, Response
+from bench.engines.metrics.contact_metric import ContactMetric, ContactResponse, Pose
 from bench.law.control import hybrid
 from bench.law.kinds import Coordinates
 from bench.law.so3 import Rotation, from_quaternion, relative, rotate_back
@@ -32,7 +32,7 @@ def work_residual(pose: Pose) -> float:
 
 
 def _works(
-    coordinates: Coordinates, convert: Callable, from_goal: bool, one: Response
+    coordinates: Coordinates, convert: Callable, from_goal: bool, one: ContactResponse
 ) -> Iterator[tuple[float, float, float]]:
     """(m . omega, F_E . Edot, |m| |omega|) at some ticks [W]."""
     goal = from_quaternion(one.trial.goal_wxyz)
