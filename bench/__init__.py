@@ -2,11 +2,13 @@
 
 Rooms, bottom up; each imports only from rooms above it in this list (pyproject.toml says so, and `make lint` looks):
 
-base/         errors (each says its cure), provenance (where numbers come from, where caches are kept), files
+base/         errors (each says its cure), provenance (where numbers come from, where caches are kept), files, isolated
+              (the process of a user's law or of an audited function)
 law/          what a law is: the dialect, rotations, linear algebra, records. `from bench.law import Law, kernel`
               contenders/, one file each: regulators/ representations/ jacobians/ inverses/ impedances/ springs/, laws
               with a state of their own: compensators/, what others run: shipped/; registry finds them, combinations
-              says what goes together; a user's own: law_file runs it, law_process where, described_law describes it
+              says what goes together; a user's own: law_file runs it, law_process asks about it, described_law
+              describes it
               control/, contenders at work: resolved_acceleration (tau = D J^-1 (u - Jdot qdot) + fg), hybrid,
               velocity (omega = K f), impedance, unshaped (an impedance with the hand's own inertia), registry
 audit/        anybody's orientation error: pairs, convention, faults/ (one file each), report, its own command line and
@@ -18,7 +20,7 @@ experiments/  one file an experiment with its columns, units and rows; what plan
               tables/: schema, store, read, statistics, lock; trust and kept_laws (laws of a results folder)
 export/       laws as code for another's controller: C, C++, Python, JavaScript, with test vectors; wheel, which has the
               audit and all laws in Python
-running/      run, run_folder (until it is finished), order, precompile, sandbox (a user's laws), answers, wire_format,
+running/      run, run_folder (until it is finished), order, precompile, wire_format, sandbox/ (a user's laws),
               schedulers/ (threads, and a Dask cluster), timing/ (time per tick)
 findings/     claims/ (the paper's sentences), selection/ (which law), why (what a law does), theory/ (closed forms);
               kept: found once, and again when anything differs

@@ -20,9 +20,9 @@ from PIL import Image
 
 from bench.base.provenance import ROOT
 from bench.base.provenance import describe as describe_machine
+from bench.experiments.tables.run import run_in
 from report.figures.failures import failure_map
 from report.figures.kit import style
-from report.figures.kit.page import run_in
 
 RESULTS = ROOT / "results" / "reference"
 CONFIGURATION = ROOT / "report" / "_config.yml"

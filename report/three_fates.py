@@ -14,7 +14,8 @@ from PIL import Image
 import tasks
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.experiments.episodes import rows_from, simulate
-from bench.experiments.experiment import Settings, Unit
+from bench.experiments.experiment import Unit
+from bench.experiments.request import Request
 from bench.experiments.suites import HORIZON
 from tasks.base import Start
 
@@ -30,7 +31,7 @@ SIZE, HEAD, LINE = (216, 204), 30, 24  # pixels of a gripper, of the heading and
 FATE = {"": ((176, 42, 34), (140, 90, 0), (10, 112, 73)), "-dark": ((255, 143, 133), (242, 191, 78), (79, 216, 160))}
 """The colours of stuck, unwinding and home, on light paper and on dark."""
 POSTER_S = 0.2
-SETTINGS = Settings("media")
+SETTINGS = Request("media")
 Fate = tuple[Motion, dict[str, Any]]
 """An episode: the rotations of the body tick by tick, and the judge's row."""
 GRIPPER = """

@@ -1,20 +1,17 @@
-"""The process that audits a function for another (apart.py): it forks, and the child calls the function.
+"""The process that audits a function for another one (apart.py): a fork of it calls the function.
 
-The parent keeps our modules, so that it can say how the child ended. The child gives their names free: the function may
-be of another package with our name.
+This process keeps our modules, so that it can say which call the function did not come back from.
+The fork gives their names free: the function may be of another package with our name.
 """
 
-import contextlib
 import json
 import mmap
 import os
-import signal
 import sys
-import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import IO, Any, NoReturn
+from typing import Any
 
 import numpy as np
 
@@ -26,128 +23,157 @@ from bench.audit.faults import every_fault
 from bench.audit.load import load
 from bench.audit.report import Report, paragraph
 from bench.base.errors import BadFunction, BenchError
+from bench.base.isolated import (
+    Line,
+    NoAnswer,
+    TimeLimits,
+    answer_in_fork,
+    send_progress,
+    serve,
+)
 
 LONG = 0.1
 """Share of the limit: a call that has lasted longer when time is up hangs; of shorter ones the audit is slow."""
-LOOK_S = 0.05
+
 BEGUN, ENDED, SIZE, NOW, GOAL = 0, 1, 2, slice(3, 12), slice(12, 21)
-"""Places on the board that both processes see: calls begun and ended, numbers of an orientation, the two of a call."""
+"""Places of numbers on the board: calls begun and ended, size of an orientation, the two of a call."""
 
 
-def main() -> None:
-    """Print the numbers of calls, then the answer, each a line of JSON."""
-    request = json.loads(sys.argv[1])
+class Board:
+    """What this process and the fork see of the calls, and when this one saw it.
+
+    Attributes:
+        numbers: In memory that both share; see BEGUN.
+        line: To the process that asks for the audit.
+        seen: Calls begun, at the last look.
+        began_s: When the last call was first seen [s, of time.monotonic].
+    """
+
+    def __init__(self, line: Line):
+        self.numbers = np.frombuffer(mmap.mmap(-1, 8 * GOAL.stop))
+        self.line = line
+        self.seen = 0
+        self.began_s = time.monotonic()
+
+    def look(self) -> None:
+        """Send the number of calls if there are more than at the last look."""
+        begun = int(self.numbers[BEGUN])
+        if begun != self.seen:
+            self.seen = begun
+            self.began_s = time.monotonic()
+            send_progress(self.line, begun)
+
+    def wrap(self, function: Callable) -> Callable:
+        """Return the function, with a note of what it is given before each call, and of its end."""
+        numbers = self.numbers
+
+        def call(now: np.ndarray, goal: np.ndarray) -> Any:
+            numbers[SIZE] = now.size
+            numbers[NOW][: now.size] = now.ravel()
+            numbers[GOAL][: goal.size] = goal.ravel()
+            numbers[BEGUN] += 1.0
+            try:
+                return function(now, goal)
+            finally:
+                numbers[ENDED] += 1.0
+
+        return call
+
+
+def answer_request(request: dict[str, Any], line: Line) -> bytes:
+    """Return the report as JSON; BadFunction if the function cannot be audited."""
+    # Of modules whose names the fork gives free.
+    every_fault()
+    board = Board(line)
+    limit_s = request["limit_s"]
+    limits = TimeLimits(limit_s * (os.cpu_count() or 1), limit_s)
     try:
-        said = answer_for(request)
-    except BenchError as error:
-        said = {"refused": str(error)}
-    print(json.dumps(said), flush=True)
-
-
-def answer_for(request: dict[str, Any]) -> dict[str, Any]:
-    """Return what the child has written, or the report on how it ended; BadFunction if no call explains that."""
-    every_fault()  # of modules whose names the child gives free
-    board = np.frombuffer(mmap.mmap(-1, 8 * GOAL.stop))
-    with tempfile.TemporaryFile() as answer:
-        child = os.fork()
-        if not child:
-            audit_and_exit(request, board, answer)
-        os.setpgid(child, child)
-        code, lasted = watch(child, request["limit_s"], board)
-        answer.seek(0)
-        if code == 0 and (text := answer.read()):
-            return dict(json.loads(text))
-    lost = find_lost_call(request, board, code, lasted)
+        return answer_in_fork(lambda: audit_here(request, board), limits, line, board.look)
+    except NoAnswer as error:
+        lost = find_lost_call(request, board, error.ending)
     return describe_report(request["target"], report_lost(request["target"], lost))
 
 
-def watch(child: int, limit_s: float, board: np.ndarray) -> tuple[int | None, float]:
-    """Print how many calls have begun; return the exit code, None if time is up, and seconds since the last call."""
-    seen, code = 0.0, None
-    began = time.monotonic()
-    deadline = began + limit_s
-    try:
-        while code is None and time.monotonic() < deadline:
-            time.sleep(LOOK_S)
-            if board[BEGUN] != seen:
-                seen, began = board[BEGUN], time.monotonic()
-                print(int(seen), flush=True)
-            ended, status = os.waitpid(child, os.WNOHANG)
-            code = os.waitstatus_to_exitcode(status) if ended else None
-    finally:
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(child, signal.SIGKILL)
-    return code, time.monotonic() - began
+def find_lost_call(request: dict[str, Any], board: Board, ending: str) -> Lost:
+    """Return the call that did not come back; BadFunction if none explains the end of the fork.
 
-
-def find_lost_call(request: dict[str, Any], board: np.ndarray, code: int | None, lasted: float) -> Lost:
-    """Return the call that did not come back."""
-    target, limit_s, calls, size = request["target"], request["limit_s"], int(board[BEGUN]), int(board[SIZE])
-    how = "" if code is None else f"exit code {code}" if code >= 0 else signal.Signals(-code).name
+    ending: how the fork ended; empty if time was up.
+    """
+    target = request["target"]
+    limit_s = request["limit_s"]
+    lasted_s = time.monotonic() - board.began_s
+    numbers = board.numbers
+    calls = int(numbers[BEGUN])
     if not calls:
-        happened = f"ended the process ({how})" if how else f"did not return within {limit_s:g} s (--limit)"
-        raise BadFunction(f"the import of {target} {happened}; correct what it does while it is loaded")
-    if not how and not (board[BEGUN] > board[ENDED] and lasted > LONG * limit_s):
+        happened = f"did not return within {limit_s:g} s (--limit)"
+        if ending:
+            happened = f"ended the process ({ending})"
         raise BadFunction(
-            f"{target} is too slow: {calls:,} of about {CALLS:,} calls were done in {limit_s:g} s; give --limit "
-            f"{CALLS / calls * limit_s * 1.5:.0f}, or a faster function"
+            f"the import of {target} {happened}; correct what it does while it is loaded"
         )
-    now, goal = (board[place][:size].reshape((3, 3) if size == 9 else -1) for place in (NOW, GOAL))
-    if how:
-        return Lost(ENDS, f"call {calls:,} ended the process ({how})", now, goal)
-    return Lost(HANGS, f"call {calls:,} had not returned after {lasted:.3g} s", now, goal)
+    is_within_a_call = numbers[BEGUN] > numbers[ENDED] and lasted_s > LONG * limit_s
+    if not ending and not is_within_a_call:
+        raise BadFunction(
+            f"{target} is too slow: {calls:,} of about {CALLS:,} calls were done in {limit_s:g} s; "
+            f"give --limit {CALLS / calls * limit_s * 1.5:.0f}, or a faster function"
+        )
+    size = int(numbers[SIZE])
+    shape = (3, 3) if size == 9 else (-1,)
+    now = numbers[NOW][:size].reshape(shape)
+    goal = numbers[GOAL][:size].reshape(shape)
+    if ending:
+        return Lost(ENDS, f"call {calls:,} ended the process ({ending})", now, goal)
+    return Lost(HANGS, f"call {calls:,} had not returned after {lasted_s:.3g} s", now, goal)
 
 
-def audit_and_exit(request: dict[str, Any], board: np.ndarray, answer: IO[bytes]) -> NoReturn:
-    """Call the function in this process, write the report, and exit without waiting for its threads."""
-    target, path = request["target"], request["path"]
-    nowhere = os.open(os.devnull, os.O_RDWR)
-    for stream in range(3):
-        os.dup2(nowhere, stream)
-    ours = __name__.partition(".")[0]
-    for name in [name for name in sys.modules if name.partition(".")[0] == ours]:
-        del sys.modules[name]
+def audit_here(request: dict[str, Any], board: Board) -> bytes:
+    """Call the function in this process, and return the report as JSON."""
+    target = request["target"]
+    ours = (__package__ or "").partition(".")[0]
+    for name in list(sys.modules):
+        if name.partition(".")[0] == ours:
+            del sys.modules[name]
     place = target.rpartition(":")[0]
-    sys.path[:] = [*([str(Path(place).resolve().parent)] if place.endswith(".py") else []), os.getcwd(), *path]
+    beside = [str(Path(place).resolve().parent)] if place.endswith(".py") else []
+    sys.path[:] = [*beside, os.getcwd(), *request["path"]]
     loaded: list[Callable] = []
 
-    def fresh() -> Callable:
+    def load_again() -> Callable:
         sys.modules.pop(place, None)
         try:
             loaded.append(load(target))
         except BadFunction:
+            # A module that can be imported only once is called without a new import.
             if not loaded:
-                raise  # else a module that can be imported only once is called without a new import
+                raise
         return loaded[-1]
 
+    allowed = tuple(request["stated"].get("allow", ()))
     try:
-        allowed = tuple(request["stated"].get("allow", ()))
         stated = Stated(**request["stated"] | {"allow": allowed})
-        said = describe_report(target, examine(fresh(), stated, target, fresh, lambda call: note_calls(call, board)))
-    except BenchError as error:
-        said = {"refused": str(error)}
+        report = examine(load_again(), stated, target, load_again, board.wrap)
+        return describe_report(target, report)
+    except BenchError:
+        raise
     except BaseException as error:
-        said = {"refused": f"the audit itself failed ({type(error).__name__}: {error}); report this"}
-    answer.write(json.dumps(said).encode())
-    answer.flush()
-    os._exit(0)
+        reason = f"the audit itself failed ({type(error).__name__}: {error}); report this"
+        raise BadFunction(reason) from error
 
 
-def note_calls(function: Callable, board: np.ndarray) -> Callable:
-    """Return the function, with a note of what it is given before each call, and of its end."""
+def describe_report(target: str, report: Report) -> bytes:
+    """Return a report as `audit_apart` does, as JSON."""
+    paragraphs = {}
+    for finding in report.findings:
+        if finding.is_fault:
+            paragraphs[finding.fault.name] = paragraph(report, finding)
+    content = {
+        "report": report.as_dict(),
+        "text": report.text(),
+        "head": report.head(),
+        "paragraphs": paragraphs,
+    }
+    return json.dumps(content).encode()
 
-    def call(now: np.ndarray, goal: np.ndarray) -> Any:
-        board[SIZE], board[NOW][: now.size], board[GOAL][: goal.size] = now.size, now.ravel(), goal.ravel()
-        board[BEGUN] += 1.0
-        try:
-            return function(now, goal)
-        finally:
-            board[ENDED] += 1.0
 
-    return call
-
-
-def describe_report(target: str, report: Report) -> dict[str, Any]:
-    """Return a report as `audit_apart` does."""
-    paragraphs = {one.fault.name: paragraph(report, one) for one in report.findings if one.is_fault}
-    return {"report": report.as_dict(), "text": report.text(), "head": report.head(), "paragraphs": paragraphs}
+if __name__ == "__main__":
+    serve(answer_request)

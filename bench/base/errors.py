@@ -50,6 +50,10 @@ class NoTable(BadResults):
     """A run has no file of a table."""
 
 
+class NoEvidence(BenchError):
+    """A run has no rows of what is asked; it says nothing about it, which is never a pass."""
+
+
 class LostWorkers(BenchError):
     """A cluster that went away, or whose workers did."""
 

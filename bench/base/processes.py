@@ -2,11 +2,14 @@
 
 import os
 import sys
+from pathlib import Path
 
-from bench.base.provenance import ROOT
+ROOT = Path(__file__).resolve().parents[__name__.count(".")]
+"""The folder that holds our outermost package: a checkout, or installed packages."""
 
 LAW_PROCESS = "ORIENTATION_BENCH_LAW_PROCESS"
-"""Environment variable of every process that runs a user's law; its value is the same in all that this law started."""
+"""Environment variable of every process that runs a user's law, or a function that is audited; its value is the same in
+all that this code started."""
 
 RUNS_A_LAW = LAW_PROCESS in os.environ
 """Whether this process runs a user's law, and so keeps nothing for other processes: no compiled code, no rows.

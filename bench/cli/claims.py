@@ -27,14 +27,13 @@ def COMMAND(folder: Path | None, criteria: bool, paper: str) -> None:
     A claim is judged only if the run has the starts that it needs. The others are at the end, with what is lacking.
     """
     from bench.base.files import read_json
-    from bench.experiments.tables import read
-    from bench.findings.claims import MURPHY, Results, at_gains, judge_possible
-    from bench.findings.claims.tables import WHOLE
+    from bench.experiments.tables.run import WHOLE, Run, shown_folder
+    from bench.findings.claims import MURPHY, at_gains, judge_possible
 
-    results = Results(folder or read.folder())
-    results.table("episodes")  # refuses a run that has not finished
+    run = Run(folder or shown_folder())
+    run.table("episodes")  # refuses a run that has not finished
     with progress("claims", "judging the paper's claims"):
-        verdicts, lacks = judge_possible(results, paper)
+        verdicts, lacks = judge_possible(run, paper)
     for one in verdicts:
         claimed = f"{str(one.word).capitalize()} ({one.rows:,} rows): {one.claim.sentence}"
         correction = (f"What is true: {one.correction}",) if one.correction else ()

@@ -11,8 +11,9 @@ from bench.base.on_first_use import pd
 from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table
-from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.experiment import Unit, rows_of
 from bench.experiments.plan import Plan
+from bench.experiments.request import Request
 from bench.experiments.suites import BY_WORD_ALONE, SUITES
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
@@ -64,14 +65,13 @@ def COMMAND(
 
 def _rows(chosen: list[Contender], arm: str = "") -> pd.DataFrame:
     """Rows of costs.parquet: of laws alone, or on an arm; a user's are counted in their sandbox."""
-    from bench.running.sandbox import Sandbox
+    from bench.running.sandbox.sandbox import Sandbox
 
-    own = tuple(dict.fromkeys(one.regulator for one in chosen if one.regulator.origin))
-    plan = Plan(Settings(own=own), tuple(Unit("costs", one.name, arm=arm) for one in chosen))
+    plan = Plan(Request(laws=tuple(chosen)), tuple(Unit("costs", one.name, arm=arm) for one in chosen))
     with Sandbox(plan) as sandbox, progress("laws", "counting"):
         sandbox.check()
         made = [
-            sandbox.rows(unit).to_pandas() if sandbox.has(unit) else rows_of(plan.settings, unit) for unit in plan.units
+            sandbox.rows(unit).to_pandas() if sandbox.has(unit) else rows_of(plan.request, unit) for unit in plan.units
         ]
         if sandbox.notes:
             raise Exit(1)
@@ -87,8 +87,10 @@ def _print(table: pd.DataFrame, title: str, stages: bool) -> None:
 def _controllers(laws: list[Contender], named: dict[str, options.Words], joints: int) -> list[Contender]:
     """Return the controllers of the laws by the Jacobians and inverses that are named; the quick suite's if none is."""
     by_name = {one.name: one for one in laws}
-    quick = SUITES["quick"].on_arms
-    words = (*quick.words, *quick.operational, *quick.compared)
+    from bench.experiments.arm import on_real_motors
+
+    section = SUITES["quick"].sections["arm"]
+    words = (*section["words"], *section["operational"]["words"], *on_real_motors(section))
     found = combinations.chosen(words, by_name, joints, named["jacobians"], named["inverses"], BY_WORD_ALONE)
     if not found:
         reasons = combinations.refusals(laws, joints, named["jacobians"], named["inverses"])

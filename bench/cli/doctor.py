@@ -16,7 +16,7 @@ import tasks
 from bench.base.provenance import describe_project
 from bench.cli.screen import console, examples, shown_path
 from bench.engines.metrics.registry import metrics_of
-from bench.experiments.experiment import Settings
+from bench.experiments.request import Request
 from bench.experiments.tables.schema import RESULTS
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import all_contenders, papers_laws
@@ -87,7 +87,7 @@ def _equal(both: Iterable[Any], where: str, what: str) -> str:
 def _engines() -> str:
     from bench.engines.simulate import run
 
-    given = papers_laws()[0], "free-body", tasks.start_set("paper")[:1], Settings().limits(0.05), metrics_of(False)
+    given = papers_laws()[0], "free-body", tasks.start_set("paper")[:1], Request().limits(0.05), metrics_of(False)
     return _equal((run(engine, *given) for engine in PAIR), "", "50 ticks of the compiled engine")
 
 
@@ -103,7 +103,7 @@ def _arms() -> str:
     laws = {one.name: one for one in all_contenders()}
     [law] = combinations.on((f"{papers_laws()[0].name}@geometric+standard",), laws, arm.joints)
     starts = tasks.start_set("clear", 1, arm=arm.name)
-    given = law, "arm-regulation", arm.name, starts, Settings().limits(0.05), metrics_of(True)
+    given = law, "arm-regulation", arm.name, starts, Request().limits(0.05), metrics_of(True)
     names = ", ".join(one.name for one in found)
     return _equal((run(engine, *given) for engine in PAIR), f"on {arm.name}", f"{names}: 50 ticks on {arm.name}")
 

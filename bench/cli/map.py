@@ -10,9 +10,9 @@ from bench.base.provenance import read_provenance
 from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, frame_table, shown_path
-from bench.experiments.choice import check_numbers, check_workers
 from bench.experiments.experiment import Unit
 from bench.experiments.map import plan_of
+from bench.experiments.request import check_numbers, check_workers
 from bench.experiments.tables.schema import RESULTS
 from bench.law.inputs import Gains
 from bench.running.schedulers import check_scheduler

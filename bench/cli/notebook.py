@@ -10,7 +10,7 @@ import click
 
 from bench.base.errors import BadResults, Incompatible, UnknownWord
 from bench.cli.advise import COMMAND, Reply, find_reply
-from bench.experiments.tables import read
+from bench.experiments.tables.run import Run, choose_rows, shown_folder, with_contender
 from bench.experiments.tables.schema import all_tables, table_of
 
 if TYPE_CHECKING:
@@ -45,8 +45,8 @@ def load(table: str, folder: str | Path | None = None, **words: Any) -> pd.DataF
     if name.endswith(".parquet"):
         frame, name = _read_file(Path(table))
     elif name in all_tables():
-        where = Path(folder) if folder else read.folder()
-        frame = read.table(where.resolve(), name)
+        where = Path(folder) if folder else shown_folder()
+        frame = Run(where.resolve()).table(name)
     else:
         raise UnknownWord("table", name, sorted(all_tables()))
     for column, word in words.items():
@@ -54,7 +54,7 @@ def load(table: str, folder: str | Path | None = None, **words: Any) -> pd.DataF
             known = [str(value) for value in frame[column].cat.categories]
             if word not in known:
                 raise UnknownWord(column, str(word), known)
-    rows = read.chosen(frame, words)
+    rows = choose_rows(frame, words)
     columns = table_of(name).columns()
     rows.attrs = {
         "units": {column.name: column.unit for column in columns if column.name in rows},
@@ -72,7 +72,7 @@ def _read_file(path: Path) -> tuple[pd.DataFrame, str]:
         raise BadResults(f"{path}: it is no table of ours; give a parquet file of a results folder")
     frame = store.frame(path, name)
     has_laws = {"controller", "regulator"} & set(frame.columns)
-    return (read.with_contender(frame) if has_laws else frame), name
+    return (with_contender(frame) if has_laws else frame), name
 
 
 class Advised:

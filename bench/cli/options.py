@@ -11,7 +11,7 @@ import rich_click as click
 
 from bench.base.errors import BadResults
 from bench.base.files import refuse_irregular
-from bench.experiments.choice import LONGEST_DT_S, MOST_STARTS, MOST_WORKERS, SHORTEST_DT_S
+from bench.experiments.request import LONGEST_DT_S, MOST_STARTS, MOST_WORKERS, SHORTEST_DT_S
 from bench.experiments.tables.schema import RESULTS
 from bench.law.contender import Contender
 from bench.law.contenders import registry
@@ -124,7 +124,7 @@ KV = NumberOption(1e-6, 1e6, 20)
 
 PERIOD = NumberOption(SHORTEST_DT_S, LONGEST_DT_S, 0.001)
 HORIZON = NumberOption(SHORTEST_DT_S, 1000.0, 10)
-"""Simulated seconds; that it has at least one tick is checked with the period (choice.check_numbers)."""
+"""Simulated seconds; that it has at least one tick is checked with the period (request.check_numbers)."""
 
 SEED = NumberOption(0, 2**32 - 1, 0, is_whole=True)
 COUNT = NumberOption(1, MOST_STARTS, 100, is_whole=True)

@@ -28,9 +28,9 @@ FEW = 3
 
 def print_size(plan: Plan, out: Path, workers: int, scheduler: str) -> None:
     """Print how much is run, how, and into which folder if it is there."""
-    given, who = plan.settings, counted(workers, "thread") if scheduler == THREADS else scheduler
-    gains = f"kp {given.gains.kp:g}/s², kv {given.gains.kv:g}/s"
-    settings = f"control period {given.dt_s:g} s, {gains}, seed {given.seed}; by {who}"
+    request, who = plan.request, counted(workers, "thread") if scheduler == THREADS else scheduler
+    gains = f"kp {request.gains.kp:g}/s², kv {request.gains.kv:g}/s"
+    settings = f"control period {request.dt_s:g} s, {gains}, seed {request.seed}; by {who}"
     into = [Paragraph("into", (shown_path(out),))] if out.exists() else []  # no path that is not there yet
     print_paragraphs(*_sizes(plan), Paragraph("with", (settings,)), *into)
 
@@ -42,7 +42,7 @@ def _sizes(plan: Plan) -> list[Paragraph]:
         if episodes
         else f"{all_units}, which make rows without episodes"
     )
-    found = [Paragraph("plan", (f"suite {plan.settings.suite}: {size}",))]
+    found = [Paragraph("plan", (f"suite {plan.request.suite}: {size}",))]
     for name, (head, word, counts) in PARTS.items():
         units = plan.of(name)
         what = "".join(f"{before}{_few(units, field, one)}" for before, field, one in counts)

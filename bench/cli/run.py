@@ -12,8 +12,8 @@ from bench.base.provenance import read_provenance
 from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, shown_path
-from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice, check_workers
 from bench.experiments.experiment import Unit
+from bench.experiments.request import IN_CONTACT, WITHOUT, Request, check_workers, integrators
 from bench.law.inputs import Gains
 from bench.running.schedulers import check_scheduler
 
@@ -52,13 +52,13 @@ from bench.running.schedulers import check_scheduler
     "--law-limit",
     type=options.LAW_LIMIT,
     metavar="SECONDS",
-    show_default="30, and ten times what ours take",
-    help="A --law that takes longer for a unit of work is stopped there, and its rows say hung.",
+    show_default="10, and ten times what ours take",
+    help="A --law that takes longer for 25 starts is stopped there, and their rows say hung.",
 )
 @click.option("--dry-run", is_flag=True, help="Print the whole plan; run nothing.")
 def COMMAND(
-    suite: str, laws: options.Files, kp: float, kv: float, workers: int, scheduler: str, out: Path,
-    law_limit: float | None, replace: bool, dry_run: bool, **words: Any,
+    suite: str, laws: options.Files, kp: float, kv: float, integrator: str | None, workers: int, scheduler: str,
+    out: Path, law_limit: float | None, replace: bool, dry_run: bool, **words: Any,
 ) -> None:  # fmt: skip
     """Run a suite and store its episodes; a run that was stopped goes on where it was.
 
@@ -77,10 +77,9 @@ def COMMAND(
 
     check_workers(workers)  # at once: a plan of arms' starts takes seconds
     check_scheduler(scheduler)
-    numbers = {name: words.pop(name) for name in ("count", "dt_s", "horizon_s", "integrator", "seed")}
-    choice = Choice(**{**words, **options.named(words["regulators"], words["jacobians"], words["inverses"])})
-    contenders = options.chosen(laws, choice.regulators, choice.representations)
-    plan = planning.make(suite, contenders, choice, gains=Gains(kp, kv), **numbers)
+    words |= options.named(words["regulators"], words["jacobians"], words["inverses"])
+    contenders = options.chosen(laws, words["regulators"], words["representations"])
+    plan = planning.make(Request(suite, tuple(contenders), Gains(kp, kv), **integrators(integrator), **words))
     planned.print_size(plan, out, workers, scheduler)
     if dry_run:
         planned.print_all(plan)

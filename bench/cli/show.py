@@ -29,7 +29,9 @@ def COMMAND(folder: str | None, part: str | None, details: bool, outcomes: bool,
     path, part = _meant(folder, part)
     given = ["--outcomes"] * outcomes + ["--regulator"] * bool(regulators)
     if not (details or part or given):
-        from bench.cli.summary.whole import print_summary  # what judges claims takes seconds to import
+        from bench.cli.summary.whole import (
+            print_summary,  # what judges claims takes seconds to import
+        )
 
         print_summary(path, is_named=folder is not None)
         return
@@ -51,13 +53,13 @@ def COMMAND(folder: str | None, part: str | None, details: bool, outcomes: bool,
 def _meant(folder: str | None, part: str | None) -> tuple[Path, str | None]:
     """Return the folder and the part that one or two words mean; UsageError or BadResults if they mean none."""
     from bench.cli.details import PARTS
-    from bench.experiments.tables import read as results
+    from bench.experiments.tables.run import shown_folder
 
     if part is None and folder in PARTS:
-        return results.folder(), folder
+        return shown_folder(), folder
     if part is not None and part not in PARTS:
         raise click.UsageError(f"'{part}' is no part of a run; parts: {', '.join(PARTS)} (try: show {folder} arms)")
-    path = Path(folder) if folder else results.folder()
+    path = Path(folder) if folder else shown_folder()
     if folder and not path.exists():
         raise BadResults(
             f"{folder}: there is no such folder, nor such a part; parts: {', '.join(PARTS)}; `make bench` makes "
@@ -69,10 +71,17 @@ def _meant(folder: str | None, part: str | None) -> tuple[Path, str | None]:
 def _tables(folder: Path, part: str | None, outcomes: bool, regulators: options.Words) -> list:
     """Titles and tables of a part, or of all."""
     from bench.cli.details import contact, robustness
-    from bench.cli.details.episodes import of_laws, outcome_table, places, tables_of_arms, tables_of_free_body
-    from bench.experiments.tables.store import read
+    from bench.cli.details.episodes import (
+        of_laws,
+        outcome_table,
+        places,
+        tables_of_arms,
+        tables_of_free_body,
+    )
+    from bench.experiments.tables.run import Run
 
-    episodes = read(folder, "episodes")
+    run = Run(folder)
+    episodes = run.table("episodes")
     if part in ("free-body", "arms"):
         episodes = episodes[(episodes["arm"] != "") == (part == "arms")]
     episodes = of_laws(episodes, shown_path(folder), regulators)
@@ -81,8 +90,8 @@ def _tables(folder: Path, part: str | None, outcomes: bool, regulators: options.
     tables_of = {
         "free-body": lambda: tables_of_free_body(episodes[episodes["arm"] == ""]),
         "arms": lambda: tables_of_arms(episodes[episodes["arm"] != ""]),
-        "contact": lambda: contact.tables(read(folder, "compliance")),
-        "robustness": lambda: robustness.tables(read(folder, "robustness")),
+        "contact": lambda: contact.tables(run.table("compliance")),
+        "robustness": lambda: robustness.tables(run.table("robustness")),
     }
     wanted = [part] if part else [*tables_of][:2] if regulators else tables_of
     return [table for one in wanted for table in tables_of[one]()]

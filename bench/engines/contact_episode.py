@@ -1,5 +1,6 @@
 """What the engines of contact share: the settings of an episode, what is recorded at each tick, and how it ends."""
 
+import functools
 from typing import Any, NamedTuple
 
 import mujoco
@@ -80,9 +81,20 @@ class Sensor(NamedTuple):
 
     def draw_noise(self, duration_s: float, dt_s: float) -> np.ndarray:
         """Return the noise of each reading of an episode, n x 6, the same for all episodes of one sensor."""
-        readings = 1 + int(duration_s / max(self.period_s, dt_s))
-        noise = np.random.default_rng(0).normal(size=(readings if self.force or self.moment else 1, 6))
-        return noise * np.repeat((self.force, self.moment), 3)
+        readings = 1
+        if self.force or self.moment:
+            readings += int(duration_s / max(self.period_s, dt_s))
+        return draw_readings(readings, self.force, self.moment)
+
+
+@functools.lru_cache(maxsize=4)
+def draw_readings(readings: int, force: float, moment: float) -> np.ndarray:
+    """Return normal noise of these standard deviations, readings x 6; every caller gets the same array.
+
+    To draw it takes 0.2 ms: a twentieth of an episode that is probed.
+    """
+    noise = np.random.default_rng(0).normal(size=(readings, 6))
+    return noise * np.repeat((force, moment), 3)
 
 
 class Conditions(NamedTuple):

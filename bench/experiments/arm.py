@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import Any
 
 import tasks
 from bench.base.errors import Incompatible
 from bench.base.on_first_use import pd
 from bench.experiments import episodes
 from bench.experiments.episode_rows import TABLE
-from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import ON_ARMS, Experiment, Unit
+from bench.experiments.request import Request
 from bench.experiments.rounding import rerun_nudged
+from bench.experiments.slices import narrow, read_on_arms
 from bench.experiments.suites import AT_INVERSES, BY_WORD_ALONE, IDEAL_MOTORS, NOMINAL, SLOW
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
@@ -26,83 +30,131 @@ EPISODE_S = {"native": 0.01, "reference": 0.3}
 
 
 @functools.lru_cache(maxsize=8)
-def units(asked: Asked) -> tuple[Unit, ...]:
+def units(request: Request) -> tuple[Unit, ...]:
     """Return the units on every arm; Incompatible where no named law, Jacobian and inverse go together on any."""
-    places, every_task = [], episodes.tasks_of(asked)
-    slices = episodes.narrowed(asked.suite.on_arms.slices, asked.choice)
+    whole: list[Unit] = []
+    every_task = episodes.tasks_of(request)
     for task in filter(tasks.is_for_arms, every_task):
-        fitting = tasks.described(task).start_sets
-        is_meant = any(part.start_set in fitting for part in slices)
-        for arm in (asked.choice.arms or tasks.arm_names()) if is_meant else ():  # one is read by MuJoCo
-            for part, one, *way in _on_arm(asked, tasks.arm(arm)):
+        start_sets = tasks.described(task).start_sets
+        if not any(part.selector in start_sets for part in slices_of(request)):
+            continue  # before MuJoCo reads an arm
+        for name in request.arms or tasks.arm_names():
+            for part, contender in _on_arm(request, tasks.arm(name)):
+                if part.selector not in start_sets or not episodes.runs_on(part.engine, task, contender):
+                    continue
                 # only joint-space baselines need the goal's joints
-                is_known = one.baseline is None or tasks.knows_joints(part.start_set)
-                if part.start_set in fitting and is_known and episodes.runs_on(part.engine, task, one):
-                    places.append(episodes.Place(part, one, task, arm, *way))
-    if every_task and not places and asked.choice.is_about_arms:
-        _check_combinations(asked)
-    return tuple(episodes.cut("arm", places, asked, MOST))
+                if contender.baseline is None or tasks.knows_joints(part.selector):
+                    whole.append(replace(part, experiment="arm", contender=contender.name, task=task, arm=name))
+    if every_task and not whole and request.is_about_arms:
+        _check_combinations(request)
+    return tuple(episodes.split_into_units(whole, request, MOST))
 
 
-def _on_arm(asked: Asked, arm: Arm) -> Iterator[tuple]:
-    """(slice, contender, variation, gains if not the settings') of everything on one arm."""
-    on_arms, choice, joints = asked.suite.on_arms, asked.choice, arm.joints
-    by_name = {one.name: one for one in asked.laws}
-    slices = episodes.narrowed(on_arms.slices, choice)
-    is_by_suite = not (choice.variations or choice.jacobians or choice.inverses)
-    is_whole = is_by_suite and not choice.narrows
-    variations = choice.variations or (IDEAL_MOTORS if is_whole else NOMINAL,)
-    few: set[Contender] = set()
-    if is_whole:
-        usual = tuple(word for word in on_arms.words if word not in on_arms.few)  # on seven joints some are the same
-        few = {*combinations.on(on_arms.few, by_name, joints)} - {*combinations.on(usual, by_name, joints)}
-    every = combinations.chosen(on_arms.words, by_name, joints, choice.jacobians, choice.inverses, BY_WORD_ALONE)
-    if every and is_by_suite and not choice.is_of_some_laws:
-        every += combinations.baselines(joints)
-    for one in every:
+def slices_of(request: Request) -> tuple[Unit, ...]:
+    """Return the slices of contenders with ideal motors, as they are narrowed."""
+    return narrow(read_on_arms(request.section("arm")["sizes"]), request)
+
+
+def on_real_motors(section: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the contenders that a suite's section runs on arms as they are."""
+    return tuple(f"{name}@geometric+standard" for name in section["on_real_motors"]["laws"])
+
+
+def _on_arm(request: Request, arm: Arm) -> Iterator[tuple[Unit, Contender]]:
+    """Yield the slices of everything on one arm, with their variations and gains, each with its contender."""
+    section, joints = request.section("arm"), arm.joints
+    laws = {contender.name: contender for contender in request.laws}
+    slices = slices_of(request)
+    is_by_suite = not (request.variations or request.jacobians or request.inverses)
+    is_whole = is_by_suite and not request.changes_starts_or_engines
+    variations = request.variations or (IDEAL_MOTORS if is_whole else NOMINAL,)
+    at_few_starts = _at_few_starts(section, laws, joints) if is_whole else set()
+    ways = request.jacobians, request.inverses
+    contenders = combinations.chosen(section["words"], laws, joints, *ways, BY_WORD_ALONE)
+    if contenders and is_by_suite and not request.names_laws:
+        contenders += combinations.baselines(joints)
+    for contender in contenders:
         for part in slices:
-            for variation in variations if one not in few or part.start_set in AT_INVERSES else ():
-                yield part, one, variation
+            if contender not in at_few_starts or part.selector in AT_INVERSES:
+                yield from _varied(part, contender, variations)
     if is_whole:
-        yield from _as_it_is(asked, by_name, arm)
-        for one in combinations.on(on_arms.operational, by_name, joints):
-            yield from ((part, one, name) for part in on_arms.operational_slices for name in (IDEAL_MOTORS, NOMINAL))
-        for one in combinations.on(on_arms.varied, by_name, joints):
-            for part in on_arms.varied_slices:
-                for variation in tasks.variation_names(arm.name):
-                    if tasks.variation(variation).believed:
-                        yield part, one, variation
+        yield from _as_it_is(request, laws, arm)
+        yield from _operational(section["operational"], laws, joints)
+        yield from _with_wrong_model(section["with_wrong_model"], laws, arm)
 
 
-def _as_it_is(asked: Asked, by_name: dict[str, Contender], arm: Arm) -> Iterator[tuple]:
-    """(slice, contender, variation, gains) of the compared laws, the user's and the baselines, on the arm as it is."""
-    own = tuple(f"{name}@geometric+standard" for name, one in by_name.items() if one.regulator.origin)
-    levels = [(kp, 2.0 * zeta * math.sqrt(kp)) for kp, zeta in filter(None, (SLOW, arm.gains)) if kp != asked.gains.kp]
+def _varied(part: Unit, contender: Contender, variations: Iterable[str]) -> Iterator[tuple[Unit, Contender]]:
+    """Yield a slice on each variation of the plant."""
+    for variation in variations:
+        yield replace(part, variation=variation), contender
+
+
+def _at_few_starts(section: Mapping[str, Any], laws: dict[str, Contender], joints: int) -> set[Contender]:
+    """Return the contenders that run from AT_INVERSES alone: on seven joints some are the same as other ones."""
+    few = section["at_few_starts"]
+    usual = tuple(word for word in section["words"] if word not in few)
+    return {*combinations.on(few, laws, joints)} - {*combinations.on(usual, laws, joints)}
+
+
+def _operational(
+    section: Mapping[str, Any], laws: dict[str, Contender], joints: int
+) -> Iterator[tuple[Unit, Contender]]:
+    """Yield the slices of contenders that run with ideal motors and on the arm as it is."""
+    for contender in combinations.on(section["words"], laws, joints):
+        for part in read_on_arms(section["sizes"]):
+            yield from _varied(part, contender, (IDEAL_MOTORS, NOMINAL))
+
+
+def _with_wrong_model(
+    section: Mapping[str, Any], laws: dict[str, Contender], arm: Arm
+) -> Iterator[tuple[Unit, Contender]]:
+    """Yield the slices of the study of model errors, on every variation that is not the controller's model."""
+    slices = read_on_arms({"clear": section["starts"]}, section["horizon_s"])
+    variations = [name for name in tasks.variation_names(arm.name) if tasks.variation(name).believed]
+    for contender in combinations.on(section["words"], laws, arm.joints):
+        for part in slices:
+            yield from _varied(part, contender, variations)
+
+
+def _as_it_is(request: Request, laws: dict[str, Contender], arm: Arm) -> Iterator[tuple[Unit, Contender]]:
+    """Yield the slices of the compared laws, the user's and the baselines, on the arm as it is."""
+    section = request.section("arm")
+    real = section["on_real_motors"]
+    of_user = tuple(f"{name}@geometric+standard" for name, law in laws.items() if law.regulator.origin)
+    contenders = combinations.on((*on_real_motors(section), *of_user), laws, arm.joints)
+    if contenders and not request.names_laws:
+        contenders += combinations.baselines(arm.joints)
+    levels = []
+    for kp, zeta in filter(None, (SLOW, arm.gains)):
+        if kp != request.gains.kp:
+            levels.append({"kp": kp, "kv": 2.0 * zeta * math.sqrt(kp)})
     known = [name for name in tasks.variation_names(arm.name) if not tasks.variation(name).believed]
-    motors, on_arms = [name for name in known if name not in (NOMINAL, IDEAL_MOTORS)], asked.suite.on_arms
-    laws = combinations.on((*on_arms.compared, *own), by_name, arm.joints)
-    for one in (*laws, *(combinations.baselines(arm.joints) if laws and not asked.choice.is_of_some_laws else ())):
-        for part in on_arms.compared_slices:
-            yield part, one, NOMINAL
-        for part in on_arms.other_slices:
-            yield from ((part, one, NOMINAL, gains) for gains in levels)
-            yield from ((part, one, name) for name in motors)
+    motors = [name for name in known if name not in (NOMINAL, IDEAL_MOTORS)]
+    for contender in contenders:
+        for part in read_on_arms(real["sizes"]):
+            yield part, contender
+        for part in read_on_arms(real["sizes_at_other_gains"]):
+            for gains in levels:
+                yield replace(part, **gains), contender
+            yield from _varied(part, contender, motors)
 
 
-def _check_combinations(asked: Asked) -> None:
+def _check_combinations(request: Request) -> None:
     """Refuse if no law, Jacobian and inverse that were named go together on any arm that was named; say why."""
-    choice, laws = asked.choice, list(asked.laws)
-    by_name, named = {one.name: one for one in laws}, (choice.jacobians, choice.inverses)
-    counts = dict.fromkeys(tasks.arm(arm).joints for arm in choice.arms or tasks.arm_names())
-    if not any(combinations.chosen(asked.suite.on_arms.words, by_name, joints, *named) for joints in counts):
-        reasons = [reason for joints in counts for reason in combinations.refusals(laws, joints, *named)]
+    laws = {contender.name: contender for contender in request.laws}
+    words, ways = request.section("arm")["words"], (request.jacobians, request.inverses)
+    counts = dict.fromkeys(tasks.arm(name).joints for name in request.arms or tasks.arm_names())
+    if not any(combinations.chosen(words, laws, joints, *ways) for joints in counts):
+        reasons = []
+        for joints in counts:
+            reasons += combinations.refusals(list(request.laws), joints, *ways)
         raise Incompatible(f"nothing to run: {combinations.shown(reasons)}")
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+def rows(request: Request, unit: Unit) -> pd.DataFrame:
     """Return the rows of a unit; each doubtful episode is also run from a start 1e-12 rad away."""
-    starts = episodes.starts_of(settings, unit)
-    simulate = functools.partial(episodes.rows_from, settings, unit)
+    starts = episodes.starts_of(request, unit)
+    simulate = functools.partial(episodes.rows_from, request, unit)
     return rerun_nudged(simulate(starts), starts, simulate)
 
 

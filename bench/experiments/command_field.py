@@ -11,14 +11,16 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from bench.experiments.episodes import prepare
 from bench.experiments.exchanged import find_order
-from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.experiment import OF_LAWS, Experiment, Unit, user_laws_last
 from bench.experiments.field import ZERO, CommandField, about, size
+from bench.experiments.request import Request
 from bench.experiments.traces import laws
 from bench.law.contender import Contender
 from bench.law.inputs import Gains
@@ -64,16 +66,17 @@ class FieldFinding(NamedTuple):
     u: np.ndarray | tuple = (math.nan,) * 3
 
 
-def units(asked: Asked) -> tuple[Unit, ...]:
+def units(request: Request) -> tuple[Unit, ...]:
     """Return a unit for each law on the free body, a user's last."""
-    made = [Unit("command-field", one.name, "free-body", engine="ideal-held", count=1, total=1) for one in laws(asked)]
-    return own_last(made, asked.own)
+    whole = Unit("command-field", task="free-body", engine="ideal-held", count=1, total=1)
+    made = [replace(whole, contender=one.name) for one in laws(request)]
+    return user_laws_last(made, request)
 
 
-def rows(settings: Settings, unit: Unit) -> list[dict]:
+def rows(request: Request, unit: Unit) -> list[dict]:
     """Return one row a finding."""
-    one = settings.contender(unit.contender)
-    found: list[dict[str, Any]] = [{**one.words, **each._asdict()} for each in findings(one, settings.gains)]
+    one = request.contender(unit.contender)
+    found: list[dict[str, Any]] = [{**one.words, **each._asdict()} for each in findings(one, request.gains)]
     for row in found:
         for name, stem, parts in (("quat", "quat_", "wxyz"), ("goal", "goal_quat_", "wxyz"), ("u", "u_", "xyz")):
             row |= {stem + part: float(x) for part, x in zip(parts, row.pop(name), strict=True)}
@@ -227,6 +230,6 @@ EXPERIMENT = Experiment.of(
     prepare=prepare,
     cost_s=lambda unit: LAW_S,
     takes=OF_LAWS,
-    is_whole=lambda settings, unit, rows: tuple(rows["finding"]) == FINDINGS,
-    ticks=lambda settings, unit: CALLS,
+    is_whole=lambda request, unit, rows: tuple(rows["finding"]) == FINDINGS,
+    ticks=lambda request, unit: CALLS,
 )

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 import tasks
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import Experiment, Unit
+from bench.experiments.request import Request
 from bench.law.contenders.registry import contenders, papers_laws
 from bench.law.kinds import Stateful
 from tasks.rules import ticks
@@ -23,24 +24,24 @@ LEVEL_S = 0.12
 """CPU seconds a level."""
 
 
-def units(asked: Asked) -> tuple[Unit, ...]:
+def units(request: Request) -> tuple[Unit, ...]:
     """Return a unit for each law."""
-    each = asked.count or STARTS
+    each = request.count or STARTS
     return tuple(
-        Unit("compensators", selector=name, count=each, total=each, horizon_s=asked.horizon_s or HORIZON_S)
+        Unit("compensators", selector=name, count=each, total=each, horizon_s=request.horizon_s or HORIZON_S)
         for name in ("", *contenders("compensators"))
     )
 
 
-def rows(settings: Settings, unit: Unit) -> list[dict]:
+def rows(request: Request, unit: Unit) -> list[dict]:
     """Return a row a level of the disturbance."""
     from bench.engines.simulate_bodies import run_compensated
 
-    one, starts = law_of(unit.selector), tasks.start_set("uniform", unit.count, seed=settings.seed)
+    one, starts = law_of(unit.selector), tasks.start_set("uniform", unit.count, seed=request.seed)
     found = []
     for level in DISTURBANCES:
-        lasting, push = ticks(unit.horizon_s, settings.dt_s), tuple(level * x for x in DIRECTION)
-        given = settings.gains, settings.dt_s, lasting, float(BAND_RAD), push
+        lasting, push = ticks(unit.horizon_s, request.dt_s), tuple(level * x for x in DIRECTION)
+        given = request.gains, request.dt_s, lasting, float(BAND_RAD), push
         settling_s, left_rad, peak_u = run_compensated(one, starts, *given)
         times = settling_s[np.isfinite(settling_s)]
         found.append(
@@ -48,8 +49,8 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
                 "law": one.name,
                 "disturbance": level,
                 "reads_rate": "yes" if one.measures_rate else "no",
-                **settings.gains._asdict(),
-                "dt_s": settings.dt_s,
+                **request.gains._asdict(),
+                "dt_s": request.dt_s,
                 "horizon_s": unit.horizon_s,
                 "starts": len(starts),
                 "settled": len(times),
@@ -71,7 +72,7 @@ def law_of(name: str) -> Stateful:
     return without_state(next(one for one in papers_laws() if one.representation is None).regulator)
 
 
-def prepare(settings: Settings, unit: Unit) -> None:
+def prepare(request: Request, unit: Unit) -> None:
     """Compile the loop and the law."""
     from bench.engines.simulate import compiled_loop
     from bench.engines.simulate_bodies import parts_of

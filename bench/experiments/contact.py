@@ -6,8 +6,8 @@ A suite leaves out arms that do not fit a task. Records, 25 doubles a tick, are 
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,9 +17,9 @@ from bench.base.on_first_use import pd
 from bench.engines.metrics.contact_metric import Pose, response
 from bench.engines.metrics.measured_compliance import compliance
 from bench.engines.metrics.registry import known_contact_metrics
-from bench.experiments.choice import Choice
 from bench.experiments.columns import of_metrics, read_table
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import Experiment, Unit
+from bench.experiments.request import Request
 from bench.law.contenders.representations.zyx_euler import chart
 from bench.law.control.contact_controller import ContactController
 from bench.law.control.registry import all_controllers, find_controller
@@ -48,53 +48,68 @@ DENSE = "dense"
 
 
 @functools.lru_cache(maxsize=8)
-def units(asked: Asked) -> tuple[Unit, ...]:
+def units(request: Request) -> tuple[Unit, ...]:
     """Return a suite's units in contact, as the user narrowed them; BadValue if a named arm cannot do a named task."""
-    part, choice = asked.suite.in_contact, asked.choice
-    if asked.own and choice.is_about_contact and set(choice.tasks) <= set(tasks.contact_names()):
+    section = request.section("contact")
+    if request.user_laws and request.is_about_contact and set(request.tasks) <= set(tasks.contact_names()):
         raise Incompatible(
-            f"tasks in contact take controllers, not the regulator '{asked.own[0].name}' (leave --law away)"
+            f"tasks in contact take controllers, not the regulator '{request.user_laws[0].name}' (leave --law away)"
         )
     found: list[Unit] = []
-    pairs = [(task, arm) for task in _tasks(choice) for arm in _arms(task, choice)]
+    pairs = [(task, arm) for task in _tasks(request) for arm in _arms(task, request)]
     for task, arm in pairs:
-        words, poses = part.on(arm.joints)
-        for one in _controllers(words, choice):
-            nowhere = one.law in part.in_free_space if task.touches(arm) else one.name in part.in_touch
-            if nowhere and not choice.controllers:
+        words, poses = controllers_and_poses(section, arm.joints)
+        for one in _controllers(words, request):
+            if not request.controllers and is_left_out(section, one, task, arm):
                 continue
-            found += cut(one, task, arm, asked.count or poses, part.dense, asked.horizon_s or task.horizon_s)
-    if not found and choice.is_about_contact:
+            horizon_s = request.horizon_s or task.horizon_s
+            found += cut(one, task, arm, request.count or poses, section["dense"], horizon_s)
+    if not found and request.is_about_contact:
         if not pairs:
             raise Incompatible("nothing to run: no arm has a site 'wrist' (add one to a file of tasks/arms)")
         raise Incompatible(
             f"nothing to run: no controller of the suite's, or that was named, acts on "
-            f"{', '.join(choice.representations)} (try: bench list controllers, and --controller)"
+            f"{', '.join(request.representations)} (try: bench list controllers, and --controller)"
         )
     return tuple(found)
 
 
-def _tasks(choice: Choice) -> list[ContactTask]:
-    others = [word for word in choice.tasks if word not in tasks.contact_names()]
-    if choice.controllers and others:
+def controllers_and_poses(section: Mapping[str, Any], joints: int) -> tuple[tuple[str, ...], int | None]:
+    """Return the controllers and the number of poses of a task on an arm of so many joints, by a suite's section."""
+    if joints > 6:
+        return section["redundant"], section["redundant_poses"]
+    return section["controllers"], section["poses"]
+
+
+def is_left_out(section: Mapping[str, Any], one: ContactController, task: ContactTask, arm: Arm) -> bool:
+    """Tell whether a suite leaves out a controller: there is something to touch, or nothing."""
+    if task.touches(arm):
+        return one.law in section["in_free_space"]
+    return one.name in section["in_touch"]
+
+
+def _tasks(request: Request) -> list[ContactTask]:
+    others = [word for word in request.tasks if word not in tasks.contact_names()]
+    if request.controllers and others:
         raise Incompatible(
-            f"task '{others[0]}' takes regulators and no controller '{choice.controllers[0]}' (try: --task "
+            f"task '{others[0]}' takes regulators and no controller '{request.controllers[0]}' (try: --task "
             f"{tasks.contact_names()[0]})"
         )
-    return [tasks.contact_task(word) for word in choice.tasks or tasks.contact_names() if word not in others]
+    words = [word for word in request.tasks or tasks.contact_names() if word not in others]
+    return [tasks.contact_task(word) for word in words]
 
 
-def _controllers(words: tuple[str, ...], choice: Choice) -> list[ContactController]:
-    found = [find_controller(word) for word in choice.controllers or words] or all_controllers()
-    if choice.representations:
-        found = [one for one in found if one.representation and one.representation.name in choice.representations]
+def _controllers(words: tuple[str, ...], request: Request) -> list[ContactController]:
+    found = [find_controller(word) for word in request.controllers or words] or all_controllers()
+    if request.representations:
+        found = [one for one in found if one.representation and one.representation.name in request.representations]
     return found
 
 
-def _arms(task: ContactTask, choice: Choice) -> list[Arm]:
-    for name in choice.arms if choice.is_about_contact else ():
+def _arms(task: ContactTask, request: Request) -> list[Arm]:
+    for name in request.arms if request.is_about_contact else ():
         refuse(task, tasks.arm(name))
-    return [one for one in map(tasks.arm, choice.arms or tasks.arm_names()) if can_do(task, one)]
+    return [one for one in map(tasks.arm, request.arms or tasks.arm_names()) if can_do(task, one)]
 
 
 def cut(
@@ -142,18 +157,18 @@ def _poses(task: ContactTask, arm: Arm, dense: bool, is_impedance: bool) -> tupl
     return tuple(map(tuple, found.values()))
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+def rows(request: Request, unit: Unit) -> pd.DataFrame:
     """Return one row a pose."""
     from bench.engines.contact_episode import Conditions
 
     one, arm = find_controller(unit.contender), tasks.arm(unit.arm)
     task = tasks.contact_task(unit.task)
     some = poses_of(one, task, arm, unit.selector == DENSE)[unit.first : unit.first + unit.count]
-    conditions = Conditions(settings.gains, dt_s=settings.dt_s, integrator=settings.contact_integrator)
-    return frame(settings.suite, one, task._replace(horizon_s=unit.horizon_s), arm, some, conditions)
+    conditions = Conditions(request.gains, dt_s=request.dt_s, integrator=request.contact_integrator)
+    return frame(request.suite, one, task._replace(horizon_s=unit.horizon_s), arm, some, conditions)
 
 
-def prepare(settings: Settings, unit: Unit) -> None:
+def prepare(request: Request, unit: Unit) -> None:
     """Compile the loop and the controller."""
     from bench.engines.simulate_contact import prepare_contact
 

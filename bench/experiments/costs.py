@@ -7,8 +7,9 @@ from bench.base.errors import BadLaw
 from bench.base.on_first_use import pd
 from bench.experiments import arm, free_body
 from bench.experiments.columns import COUNT, Column, read_table
-from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.experiment import ON_ARMS, Experiment, Unit, user_laws_last
 from bench.experiments.kept_rows import kept
+from bench.experiments.request import Request
 from bench.experiments.traces import laws
 from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders
@@ -27,22 +28,22 @@ def operations() -> list[Column]:
     return [Column(name, COUNT, "1", f"{name} operations a tick") for name in OPERATIONS]
 
 
-def units(asked: Asked) -> tuple[Unit, ...]:
+def units(request: Request) -> tuple[Unit, ...]:
     """Return a unit a law, then one for each controller and number of joints that it is run with; a user's last."""
     on_arms: dict = {}
-    for unit in arm.units(asked):
+    for unit in arm.units(request):
         on_arms.setdefault((unit.contender, tasks.arm(unit.arm).joints), unit.arm)
-    ours = () if asked.choice.named else all_contenders()
-    names = dict.fromkeys(one.name for one in (*ours, *laws(asked)))
+    ours = () if request.named_kinds else all_contenders()
+    names = dict.fromkeys(one.name for one in (*ours, *laws(request)))
     places = [*((name, "") for name in names), *((name, on) for (name, _), on in on_arms.items())]
-    is_beyond = all(unit.engine == BEYOND for unit in (*free_body.units(asked), *arm.units(asked)))
+    is_beyond = all(unit.engine == BEYOND for unit in (*free_body.units(request), *arm.units(request)))
     engine = BEYOND if is_beyond else ""
-    return own_last([Unit("costs", name, arm=on, engine=engine) for name, on in places], asked.own)
+    return user_laws_last([Unit("costs", name, arm=on, engine=engine) for name, on in places], request)
 
 
-def rows(settings: Settings, unit: Unit) -> list[dict]:
+def rows(request: Request, unit: Unit) -> list[dict]:
     """Return a row a branch and stage; none of a user's law that only BEYOND runs; BadLaw if it cannot be counted."""
-    one = settings.contender(unit.contender)
+    one = request.contender(unit.contender)
     try:
         return count_operations(one, tasks.arm(unit.arm).joints if unit.arm else 0)
     except BadLaw:
@@ -51,7 +52,7 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
         return []
 
 
-def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
+def is_whole(request: Request, unit: Unit, rows: pd.DataFrame) -> bool:
     """Tell whether both branches have the same stages, or there are no rows where there may be none."""
     stages = {branch: tuple(some) for branch, some in rows.groupby("branch", observed=True)["stage"]}
     expected = unit.engine == BEYOND and not len(rows)

@@ -13,7 +13,8 @@ from bench.engines.arm_episode import POSE, blank_arm
 from bench.engines.metrics.metric import Ending, Metric
 from bench.engines.metrics.registry import known_metrics, metrics_of
 from bench.experiments.columns import of_metrics, read_table
-from bench.experiments.experiment import Settings, Unit
+from bench.experiments.experiment import Unit
+from bench.experiments.request import Request
 from bench.experiments.rounding import OUTCOME_NUDGED, ROUNDING_CHANGE
 from bench.law.contenders.representations.zyx_euler import chart
 from bench.law.so3 import from_quaternion
@@ -30,29 +31,29 @@ TABLE = read_table(__file__, "episodes", METRICS=lambda: of_metrics(known_metric
 """The table of `free_body` and `arm`."""
 
 
-def frame(settings: Settings, unit: Unit, starts: list[Start], numbers: np.ndarray) -> pd.DataFrame:
+def frame(request: Request, unit: Unit, starts: list[Start], numbers: np.ndarray) -> pd.DataFrame:
     """Return the rows of one unit from these starts."""
     angles = np.array([chart(from_quaternion(start.quat_wxyz)).E for start in starts])
     quats = np.array([start.quat_wxyz for start in starts])
     omegas = np.array([start.omega for start in starts])
     goals = np.array([start.goal_wxyz for start in starts])
-    ran = episode_columns(settings, starts, numbers, settings.dt_s, unit.horizon_s)
+    ran = episode_columns(request, starts, numbers, request.dt_s, unit.horizon_s)
     found = {
         **ran,
         "task": unit.task,
         "arm": unit.arm,
         "variation": unit.variation,
-        **settings.contender(unit.contender).words,
+        **request.contender(unit.contender).words,
         "engine": unit.engine,
         "start_set": unit.selector,
         **{f"quat_{axis}": quats[:, i] for i, axis in enumerate("wxyz")},
         **{name: angles[:, i] for i, name in enumerate(("alpha0", "beta0", "gamma0"))},
         **{f"omega0_{axis}": omegas[:, i] for i, axis in enumerate("xyz")},
         **{f"goal_quat_{axis}": goals[:, i] for i, axis in enumerate("wxyz")},
-        "kp": settings.gains.kp,
-        "kv": settings.gains.kv,
-        "integrator": INTEGRATORS.get(unit.engine, settings.integrator),
-        **_steps(numbers, settings.dt_s),
+        "kp": request.gains.kp,
+        "kv": request.gains.kv,
+        "integrator": INTEGRATORS.get(unit.engine, request.integrator),
+        **_steps(numbers, request.dt_s),
         "tolerance": RULES.tolerance,
         "hold_s": RULES.hold_s,
         "ticks": numbers[:, episode.TICKS].astype(np.int64),
@@ -72,11 +73,11 @@ def frame(settings: Settings, unit: Unit, starts: list[Start], numbers: np.ndarr
     )
 
 
-def lost_frame(settings: Settings, unit: Unit, starts: list[Start], outcome: str) -> pd.DataFrame:
-    """Return rows of episodes that a user's law never came back from: the settings and the outcome, no measure."""
+def lost_frame(request: Request, unit: Unit, starts: list[Start], outcome: str) -> pd.DataFrame:
+    """Return rows of episodes that a user's law never came back from: numbers and outcome, but no measure."""
     metrics = metrics_of(on_arm=bool(unit.arm))
     numbers = lost_numbers((blank_arm if unit.arm else episode.blank)(len(starts), metrics), outcome)
-    made = frame(settings, unit, starts, numbers)
+    made = frame(request, unit, starts, numbers)
     return made.assign(**dict.fromkeys((metric.column for metric in metrics), np.nan), cond_jacobian_max=np.nan)
 
 
@@ -88,12 +89,10 @@ def lost_numbers(numbers: np.ndarray, outcome: str) -> np.ndarray:
     return numbers
 
 
-def episode_columns(
-    settings: Settings, starts: list[Start], numbers: np.ndarray, dt_s: float, horizon_s: float
-) -> dict:
+def episode_columns(request: Request, starts: list[Start], numbers: np.ndarray, dt_s: float, horizon_s: float) -> dict:
     """Return what rows of several experiments say: the start of an episode, its times, and how it ended."""
     return {
-        "suite": settings.suite,
+        "suite": request.suite,
         "start_id": [start.id for start in starts],
         "angle0_rad": np.array([angle(start.quat_wxyz, start.goal_wxyz) for start in starts]),
         "dt_s": dt_s,

@@ -13,54 +13,36 @@ import dataclasses
 import functools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
 from bench import experiments
 from bench.base.errors import BadLaw
 from bench.base.on_first_use import pd
-from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice
 from bench.experiments.columns import Table, read_table
-from bench.experiments.suites import Suite
-from bench.law.contender import Contender
-from bench.law.contenders.registry import find_contender
-from bench.law.inputs import PAPERS_GAINS, Gains
-from bench.law.kinds import Law
+from bench.experiments.request import Request
+from bench.law.inputs import Gains
 from tasks.discovery import constants
-from tasks.rules import RULES, ticks
-
-if TYPE_CHECKING:
-    from bench.engines.episode import Settings as Limits
-
-
-class Settings(NamedTuple):
-    """What all units of a run share; own: the user's laws; suite: what the rows say that they belong to."""
-
-    suite: str = "experiment"
-    gains: Gains = PAPERS_GAINS
-    dt_s: float = 1e-3
-    integrator: str = WITHOUT
-    contact_integrator: str = IN_CONTACT
-    seed: int = 0
-    own: tuple[Law, ...] = ()
-
-    def contender(self, name: str) -> Contender:
-        """Return the law, or the controller of an arm, of that name."""
-        return find_contender(name, self.own)
-
-    def limits(self, horizon_s: float) -> Limits:
-        """Return these numbers and the judge's rules as engines take them."""
-        from bench.engines.episode import Settings as Limits
-
-        return Limits(self.gains, self.dt_s, ticks(horizon_s, self.dt_s), RULES.hold_ticks(self.dt_s))
 
 
 @dataclass(frozen=True)
 class Unit:
     """A piece of work that is done or not done.
 
-    selector: which starts: a start set, a perturbation, or "dense" of a task in contact. first, count: the stretch of
-    them that is meant, in starts, poses or axes; total: of so many. episodes: how many are run, of those that progress
-    is counted in. kp, kv: gains of its own; 0: those of the settings.
+    Attributes:
+        experiment: Name of its experiment.
+        contender: Name of the law, the controller of an arm or the controller in contact.
+        task: Name of the task.
+        arm: Name of the arm.
+        engine: Name of the engine.
+        selector: Which starts: a start set, a perturbation, or "dense" of a task in contact.
+        variation: Name of the plant's variation.
+        first: The first of the starts, poses or axes that are meant.
+        count: How many of them are meant.
+        total: How many there are.
+        episodes: Number of episodes that are run, in which progress is counted.
+        horizon_s: Longest simulated time [s].
+        kp: Position gain of its own [1/s^2]; 0 for the request's gains.
+        kv: Velocity gain of its own [1/s].
     """
 
     experiment: str
@@ -106,27 +88,6 @@ class Unit:
         return (self.part(first, min(most, count - first)) for first in range(0, count, most))
 
 
-@dataclass(frozen=True)
-class Asked:
-    """What a plan is made of: a suite, laws of the free body, and what the user asked for; None is the suite's own.
-
-    count: of the starts of each set or level, and the poses of each task in contact. horizon_s: of every episode.
-    """
-
-    suite: Suite
-    laws: tuple[Contender, ...]
-    choice: Choice
-    count: int | None = None
-    horizon_s: float | None = None
-    seed: int = 0
-    gains: Gains = PAPERS_GAINS
-
-    @property
-    def own(self) -> tuple[Law, ...]:
-        """Return the user's laws."""
-        return tuple(dict.fromkeys(one.regulator for one in self.laws if one.regulator.origin))
-
-
 OF_LAWS = ("tasks", "regulators", "representations")
 """What an experiment takes that runs some laws on the free body."""
 
@@ -134,7 +95,7 @@ OF_EPISODES = (*OF_LAWS, "start_sets", "engines")
 ON_ARMS = (*OF_EPISODES, "arms", "jacobians", "inverses", "variations")
 
 
-def no_rows(settings: Settings, unit: Unit, outcome: str = "") -> Rows:
+def no_rows(request: Request, unit: Unit, outcome: str = "") -> Rows:
     """Return no rows: this experiment has none for a law that crashed or hung."""
     return []
 
@@ -147,32 +108,44 @@ PARTS = ("units", "rows", "prepare", "lost", "is_whole", "fold")
 """Functions of an experiment's file that are parts of it by their names."""
 
 
-class Experiment(NamedTuple):
+@dataclass(frozen=True)
+class Experiment:
     """The constant EXPERIMENT of a file: what there is to do, and what comes of it.
 
-    name: the file's, with dashes. table: its columns and the key of a row (`columns.read_table`). units(asked): in the
-    order of the rows. rows(settings, unit) -> what `pandas.DataFrame` takes. cost_s(unit) -> seconds it usually takes.
-    prepare(settings, unit): compile, import and build what its rows need, for all processes that are forked then.
-    lost(settings, unit, outcome) -> what is left of a unit whose law crashed or hung. is_whole(settings, unit, rows):
-    whether rows of a user's law can be all of the unit's, by their number and place. ticks(settings, unit) -> control
-    periods at most, which a user's law has its time by; usually all of its episodes' to their horizon.
-    is_divisible: whether `Unit.part` of it is a unit too. is_tried_first: whether a user's law goes through it before a
-    run begins, so that a mistake leaves no folder. takes: the kinds of words, fields of Choice, that narrow its units;
-    where another kind is named, it is not run. fold(before, after) -> the rows of two units as those of both, where the
-    table is not all of them in turn. in_suites: whether suites have it. rank: place among all, then by name.
+    Attributes:
+        name: The file's name, with dashes.
+        title: What it is, in a few words.
+        table: Its columns and the key of a row (`columns.read_table`).
+        units: units(request) -> its units in the order of the rows.
+        rows: rows(request, unit) -> what `pandas.DataFrame` takes.
+        cost_s: cost_s(unit) -> CPU seconds that it usually takes.
+        takes: Kinds of words (`request.KINDS`) that narrow its units. Where another kind is named, it is not run.
+        prepare: prepare(request, unit) compiles, imports and builds what its rows need, for all processes that are
+            forked then.
+        lost: lost(request, unit, outcome) -> what is left of a unit whose law crashed or hung.
+        is_whole: is_whole(request, unit, rows) -> whether rows of a user's law can be all of the unit's, by their
+            number and place.
+        ticks: ticks(request, unit) -> upper bound of control periods, from which the time limit of a user's law
+            follows; usually all of its episodes' to their horizon.
+        is_divisible: Whether `Unit.part` of a unit is a unit too.
+        is_tried_first: Whether a user's law goes through it before a run begins, so that a mistake leaves no folder.
+        compiles: Whether its rows need compiled code.
+        fold: fold(before, after) -> the rows of two units as those of both, where the table is not all of them in turn.
+        in_suites: Whether suites have it.
+        rank: Place among all, then by name.
     """
 
     name: str
     title: str
     table: Table
-    units: Callable[[Asked], tuple[Unit, ...]]
-    rows: Callable[[Settings, Unit], Rows]
+    units: Callable[[Request], tuple[Unit, ...]]
+    rows: Callable[[Request, Unit], Rows]
     cost_s: Callable[[Unit], float]
     takes: tuple[str, ...] = ()
-    prepare: Callable[[Settings, Unit], None] = lambda settings, unit: None
-    lost: Callable[[Settings, Unit, str], Rows] = no_rows
-    is_whole: Callable[[Settings, Unit, pd.DataFrame], bool] = lambda settings, unit, rows: len(rows) > 0
-    ticks: Callable[[Settings, Unit], float] = lambda settings, unit: unit.episodes * unit.horizon_s / settings.dt_s
+    prepare: Callable[[Request, Unit], None] = lambda request, unit: None
+    lost: Callable[[Request, Unit, str], Rows] = no_rows
+    is_whole: Callable[[Request, Unit, pd.DataFrame], bool] = lambda request, unit, rows: len(rows) > 0
+    ticks: Callable[[Request, Unit], float] = lambda request, unit: unit.episodes * unit.horizon_s / request.dt_s
     is_divisible: bool = False
     is_tried_first: bool = False
     compiles: bool = True
@@ -210,15 +183,16 @@ def experiment_of(unit: Unit) -> Experiment:
     return known_experiments()[unit.experiment]
 
 
-def rows_of(settings: Settings, unit: Unit) -> pd.DataFrame:
+def rows_of(request: Request, unit: Unit) -> pd.DataFrame:
     """Return the rows of a unit."""
-    gains = Gains(unit.kp, unit.kv) if unit.kp else settings.gains
-    return pd.DataFrame(experiment_of(unit).rows(settings._replace(gains=gains), unit))
+    own_gains = Gains(unit.kp, unit.kv) if unit.kp else request.gains
+    at_gains = dataclasses.replace(request, gains=own_gains)
+    return pd.DataFrame(experiment_of(unit).rows(at_gains, unit))
 
 
-def own_last(units: list[Unit], own: tuple[Law, ...]) -> tuple[Unit, ...]:
+def user_laws_last(units: list[Unit], request: Request) -> tuple[Unit, ...]:
     """Return the units of our laws in their order, then those of a user's, contender by contender."""
-    names = [one.name for one in own]
+    names = [law.name for law in request.user_laws]
     theirs = [unit.contender for unit in units if unit.law in names]
     place = {name: 1 + i for i, name in enumerate(dict.fromkeys(theirs))}
     return tuple(sorted(units, key=lambda unit: place.get(unit.contender, 0)))

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import Experiment, Unit
+from bench.experiments.request import Request
 from bench.experiments.suites import STREAMED
 from bench.law.contenders.registry import contenders, find_contender
 from tasks.goal_stream import LENGTH_S, STREAMS, goals, true_goal
@@ -17,16 +18,16 @@ SIGNED = "quaternion,"
 """Streams that arrive so are also run by the spring on the quaternion as it came."""
 
 
-def units(asked: Asked) -> tuple[Unit, ...]:
+def units(request: Request) -> tuple[Unit, ...]:
     """Return one unit."""
     return (Unit("goal-streams", count=len(STREAMS), total=len(STREAMS), horizon_s=LENGTH_S),)
 
 
-def rows(settings: Settings, unit: Unit) -> list[dict]:
+def rows(request: Request, unit: Unit) -> list[dict]:
     """Return a row a stream and law; `law` is empty for the spring on the quaternion as it came."""
     from bench.engines.simulate_bodies import run_stream
 
-    dt, laws = settings.dt_s, [law for law in STREAMED if law in contenders("regulators")]
+    dt, laws = request.dt_s, [law for law in STREAMED if law in contenders("regulators")]
     truth = np.array([true_goal(k * dt) for k in range(round(LENGTH_S / dt))])
     steps = compute_steps(truth)
     found = []
@@ -36,7 +37,7 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
         goal = {"goal_rate_ratio": made.max() / steps.max(), "goal_way_ratio": made.sum() / steps.sum()}
         for law in (*laws, *[""] * stream.arrives.startswith(SIGNED)):
             one = find_contender(law or laws[0])
-            peak, off, way = run_stream(one, filled, truth, settings.gains, dt, is_raw=not law)
+            peak, off, way = run_stream(one, filled, truth, request.gains, dt, is_raw=not law)
             loop = {"peak_u": peak, "off_rad": off, "way_ratio": way / steps.sum()}
             found.append({"stream": stream.name, "law": law, **goal, **loop})
     return found

@@ -14,7 +14,8 @@ from bench.base.on_first_use import pd
 from bench.engines.episode import FINAL_ANGLE
 from bench.experiments import arm, starts
 from bench.experiments.episode_rows import episode_columns
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import Experiment, Unit
+from bench.experiments.request import Request
 from bench.experiments.suites import BY_EVERY_INVERSE, ON_ARM
 from bench.law.contenders.registry import find_contender
 from bench.law.control.unshaped import DAMPINGS
@@ -46,35 +47,35 @@ EPISODE_S = 0.02
 """CPU seconds an episode of five seconds at most, median."""
 
 
-def units_on_arms(asked: Asked, name: str, **more: Any) -> tuple[Unit, ...]:
+def units_on_arms(request: Request, name: str, **more: Any) -> tuple[Unit, ...]:
     """Return a unit a design of damping on each arm of the plan."""
-    arms = dict.fromkeys(unit.arm for unit in arm.units(asked))
+    arms = dict.fromkeys(unit.arm for unit in arm.units(request))
     return tuple(Unit(name, task="arm-regulation", arm=one, selector=word, **more) for one in arms for word in DAMPINGS)
 
 
-def units(asked: Asked) -> tuple[Unit, ...]:
-    """Return the designs on arms, with as many starts as velocity-commanded robots get."""
-    count = asked.suite.velocity.on_arms
-    return units_on_arms(asked, "impedance", count=count, total=count, horizon_s=ON_ARM)
+def units(request: Request) -> tuple[Unit, ...]:
+    """Return the designs on arms."""
+    count = request.section("impedance")["starts"]
+    return units_on_arms(request, "impedance", count=count, total=count, horizon_s=ON_ARM)
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+def rows(request: Request, unit: Unit) -> pd.DataFrame:
     """Return one row an episode."""
-    some, both = starts.on_arm(START_SET, unit.count, settings.seed, unit.arm), range(len(COMPENSATED))
-    made = [_rows(settings, unit, some, stiffness, whole) for stiffness in STIFFNESSES for whole in both]
+    some, both = starts.on_arm(START_SET, unit.count, request.seed, unit.arm), range(len(COMPENSATED))
+    made = [_rows(request, unit, some, stiffness, whole) for stiffness in STIFFNESSES for whole in both]
     frame = pd.concat(map(pd.DataFrame, made), ignore_index=True)
     frame.loc[frame["failure_time_s"].notna(), list(UNBOUNDED)] = np.nan
     return frame
 
 
-def _rows(settings: Settings, unit: Unit, some: list, stiffness: Stiffness, whole: int) -> dict:
+def _rows(request: Request, unit: Unit, some: list, stiffness: Stiffness, whole: int) -> dict:
     from bench.engines.plants.impedance import ADDED, DAMPED, ELBOW, KINETIC, LEFT, OFF, OVERSHOOT, STRAIN, Springs
     from bench.engines.simulate_arms import run_impedance as run
 
     law, damping = find_contender(LAW), DAMPINGS[unit.selector]
     springs = Springs(*stiffness, ZETA, whole)
-    numbers, _ = run(law, damping, springs, some, settings.limits(unit.horizon_s), unit.arm)
-    ran = episode_columns(settings, some, numbers, settings.dt_s, unit.horizon_s)
+    numbers, _ = run(law, damping, springs, some, request.limits(unit.horizon_s), unit.arm)
+    ran = episode_columns(request, some, numbers, request.dt_s, unit.horizon_s)
     left = compute_potential(stiffness, numbers[:, FINAL_ANGLE], numbers[:, LEFT]) + numbers[:, KINETIC]
     return {
         **ran,
@@ -109,9 +110,9 @@ def compute_potential(stiffness: Stiffness, theta: np.ndarray, distance: np.ndar
     return 0.5 * (stiffness.rotation * theta**2 + stiffness.translation * distance**2)
 
 
-def prepare(settings: Settings, unit: Unit) -> None:
+def prepare(request: Request, unit: Unit) -> None:
     """Compile the loop, the error and the design."""
-    _rows(settings, unit, [], STIFFNESSES[0], whole=0)
+    _rows(request, unit, [], STIFFNESSES[0], whole=0)
 
 
 EXPERIMENT = Experiment.of(

@@ -15,8 +15,9 @@ import numpy as np
 
 import tasks
 from bench.base.bisection import bisect
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import Experiment, Unit
 from bench.experiments.impedance import LAW, STIFFNESSES, ZETA, Stiffness, prepare, setting_columns, units_on_arms
+from bench.experiments.request import Request
 from bench.law.contenders.registry import find_contender
 from bench.law.control.unshaped import DAMPINGS
 
@@ -37,41 +38,41 @@ DESIGN_S = 0.02
 """CPU seconds a design of damping on an arm."""
 
 
-def units(asked: Asked) -> tuple[Unit, ...]:
+def units(request: Request) -> tuple[Unit, ...]:
     """Return the designs on arms."""
-    return units_on_arms(asked, "impedance-modes")
+    return units_on_arms(request, "impedance-modes")
 
 
-def rows(settings: Settings, unit: Unit) -> list[dict]:
+def rows(request: Request, unit: Unit) -> list[dict]:
     """Return one row a mode."""
     every = map(tasks.variation, tasks.variation_names(unit.arm))
-    plants = [one.name for one in every if not one.believed and one.late_ticks(settings.dt_s) < 0]
+    plants = [one.name for one in every if not one.believed and one.late_ticks(request.dt_s) < 0]
     found = []
     stiffnesses = dict.fromkeys((*STIFFNESSES, *(SHIPPED.values() if unit.arm == "panda" else ())))
     for plant, stiffness in itertools.product(plants, stiffnesses):
-        P, Q = hand_matrices(settings, unit, stiffness, plant)
-        radius = compute_tick_radius(P, Q, settings.dt_s)
-        delay = find_longest_delay(P, Q, settings.dt_s) if radius < 1.0 else np.nan
-        loop = {"variation": plant, "dt_s": settings.dt_s, "longest_dt_s": find_longest_tick(P, Q)}
+        P, Q = hand_matrices(request, unit, stiffness, plant)
+        radius = compute_tick_radius(P, Q, request.dt_s)
+        delay = find_longest_delay(P, Q, request.dt_s) if radius < 1.0 else np.nan
+        loop = {"variation": plant, "dt_s": request.dt_s, "longest_dt_s": find_longest_tick(P, Q)}
         loop |= {"longest_delay_s": delay, "radius": radius}
         for mode, (omega, ratio) in enumerate(zip(*compute_modes(P, Q), strict=True), start=1):
             found.append({**setting_columns(unit, stiffness), **loop, "mode": mode, "omega": omega, "ratio": ratio})
     return found
 
 
-def hand_matrices(settings: Settings, unit: Unit, stiffness: Stiffness, plant: str) -> tuple[np.ndarray, np.ndarray]:
+def hand_matrices(request: Request, unit: Unit, stiffness: Stiffness, plant: str) -> tuple[np.ndarray, np.ndarray]:
     """Compute P [1/s^2] and Q [1/s], 6 x 6, at the arm's home."""
     from bench.engines.plants.impedance import Springs
     from bench.engines.simulate_arms import run_impedance as run
     from tasks.kinematics import kinematics
 
     arm = tasks.arm(unit.arm)
-    judge, n, dt = kinematics(arm), arm.joints, settings.dt_s
+    judge, n, dt = kinematics(arm), arm.joints, request.dt_s
     p, quat = judge.pose(arm.home)
     offsets = STEP * np.vstack((np.eye(2 * n), -np.eye(2 * n)))
     states = np.hstack((arm.home, np.zeros(n))) + offsets
     begun = [judge.start("", one[:n], quat, one[n:], goal_p=tuple(p.tolist())) for one in states]
-    limits = settings.limits(dt)._replace(ticks=1)
+    limits = request.limits(dt)._replace(ticks=1)
     law, damping, springs = find_contender(LAW), DAMPINGS[unit.selector], Springs(*stiffness, ZETA, 0)
     _, ends = run(law, damping, springs, begun, limits, unit.arm, plant)
     tick = (ends[: 2 * n] - ends[2 * n :]).T / (2.0 * STEP)

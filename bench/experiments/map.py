@@ -18,8 +18,9 @@ from bench.base.on_first_use import pd
 from bench.engines.episode import OUTCOME, SETTLING_TICK, START_WIDTH, STEP
 from bench.experiments.columns import CONTENDER_KEY
 from bench.experiments.episodes import prepare_law
-from bench.experiments.experiment import Experiment, Settings, Unit
+from bench.experiments.experiment import Experiment, Unit
 from bench.experiments.plan import Plan
+from bench.experiments.request import Request
 from bench.experiments.suites import SHORT
 from bench.law.contender import Contender
 from bench.law.inputs import PAPERS_GAINS, Gains
@@ -67,26 +68,25 @@ def plan_of(
         for least, most in speeds
         for unit in replace(whole, contender=one.name, selector=f"speed-{least:g}to{most:g}").cut(starts, UNIT)
     )
-    own = tuple(dict.fromkeys(one.regulator for one in laws if one.regulator.origin))
-    return Plan(Settings("map", gains, dt_s, seed=seed, own=own), tuple(units))
+    return Plan(Request("map", tuple(laws), gains, dt_s, seed=seed), tuple(units))
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+def rows(request: Request, unit: Unit) -> pd.DataFrame:
     """Return the cells that a unit's starts lie in, the slowest start of each ring, and the lost starts."""
     found = pd.DataFrame()
     for number in range(unit.first // BLOCK, -(-(unit.first + unit.count) // BLOCK)):
-        made = _of_block(settings, unit, number)
+        made = _of_block(request, unit, number)
         found = made if found.empty else fold(found, made)
     return found
 
 
-def _of_block(settings: Settings, unit: Unit, number: int) -> pd.DataFrame:
+def _of_block(request: Request, unit: Unit, number: int) -> pd.DataFrame:
     from bench.engines.simulate import on_ideal
 
-    one, first = settings.contender(unit.contender), number * BLOCK
+    one, first = request.contender(unit.contender), number * BLOCK
     least, most = map(float, unit.selector.removeprefix("speed-").split("to"))
-    quats, omegas = (part[: unit.first + unit.count - first] for part in block(number, settings.seed, most, least))
-    ended = on_ideal(unit.engine, one, start_rows(quats, omegas), settings.limits(unit.horizon_s), total=unit.total)
+    quats, omegas = (part[: unit.first + unit.count - first] for part in block(number, request.seed, most, least))
+    ended = on_ideal(unit.engine, one, start_rows(quats, omegas), request.limits(unit.horizon_s), total=unit.total)
     codes, has_converged = ended[:, OUTCOME].astype(int), ended[:, STEP] >= 0.0
     is_settled = (ended[:, OUTCOME] == SETTLED) & has_converged
     starts = pd.DataFrame(
@@ -95,7 +95,7 @@ def _of_block(settings: Settings, unit: Unit, number: int) -> pd.DataFrame:
             "starts": 1,
             "settled": is_settled.astype(np.int64),
             "unconverged": (~has_converged).astype(np.int64),
-            "settling_time_s": np.where(is_settled, ended[:, SETTLING_TICK] * settings.dt_s, np.nan),
+            "settling_time_s": np.where(is_settled, ended[:, SETTLING_TICK] * request.dt_s, np.nan),
             "start": first + np.arange(len(quats)),
             **dict(zip(STATE, np.column_stack((quats, omegas)).T, strict=True)),
             "outcome": np.array(OUTCOMES)[codes],
@@ -104,10 +104,10 @@ def _of_block(settings: Settings, unit: Unit, number: int) -> pd.DataFrame:
     every = pd.concat([starts.assign(row=row) for row in (CELL, SLOWEST, LOST)], ignore_index=True)
     law = {
         **one.words,
-        "kp": settings.gains.kp,
-        "kv": settings.gains.kv,
+        "kp": request.gains.kp,
+        "kv": request.gains.kv,
         "engine": unit.engine,
-        "seed": settings.seed,
+        "seed": request.seed,
         "least_speed": least,
         "most_speed": most,
     }
@@ -153,7 +153,7 @@ def _reduced(every: pd.DataFrame) -> pd.DataFrame:
     return pd.concat([cells, slowest, lost], ignore_index=True).sort_values(order, ignore_index=True)
 
 
-def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
+def is_whole(request: Request, unit: Unit, rows: pd.DataFrame) -> bool:
     """Tell whether the cells hold as many starts as the unit has, none lie outside SO(3), and each row has its kind."""
     at = rows[rows["row"] == CELL]
     parts = rows[["starts", "settled", "unconverged"]]
@@ -167,8 +167,8 @@ def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
 EXPERIMENT = Experiment.of(
     globals(),
     "laws from millions of random starts",
-    units=lambda asked: (),
+    units=lambda request: (),
     cost_s=lambda unit: unit.count * START_S,
-    prepare=lambda settings, unit: prepare_law(settings, unit, unit.engine, metrics=()),
+    prepare=lambda request, unit: prepare_law(request, unit, unit.engine, metrics=()),
     in_suites=False,
 )

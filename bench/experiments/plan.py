@@ -1,4 +1,4 @@
-"""A plan: the units of one run, from a suite and what the user narrowed or widened it to."""
+"""A plan: the units of one run, from a request."""
 
 import dataclasses
 import functools
@@ -10,20 +10,23 @@ from dataclasses import dataclass
 import tasks
 from bench.base.errors import Incompatible
 from bench.base.provenance import source_digest
-from bench.experiments.choice import EVERYTHING, IN_CONTACT, INTEGRATORS, WITHOUT, Choice, check_numbers, check_word
 from bench.experiments.columns import Table
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit, known_experiments, known_tables
-from bench.experiments.suites import suite
+from bench.experiments.experiment import Experiment, Unit, known_experiments, known_tables
+from bench.experiments.request import Request, check_word, checked
 from bench.law.contender import Contender
-from bench.law.inputs import PAPERS_GAINS, Gains
 from tasks.rules import RULES
 
 
 @dataclass(frozen=True)
 class Plan:
-    """Everything that decides the rows of a run."""
+    """Everything that decides the rows of a run.
 
-    settings: Settings
+    Attributes:
+        request: The numbers that all units have in common, and the user's laws.
+        units: The units in the order of their rows.
+    """
+
+    request: Request
     units: tuple[Unit, ...]
 
     def of(self, *experiments: str) -> tuple[Unit, ...]:
@@ -45,14 +48,14 @@ class Plan:
     def contenders(self) -> tuple[Contender, ...]:
         """Return the laws and the controllers of arms that are run."""
         names = dict.fromkeys(unit.contender for unit in self.of("free-body", "arm", "robustness"))
-        return tuple(map(self.settings.contender, names))
+        return tuple(map(self.request.contender, names))
 
     def identity(self) -> dict:
         """Return what two runs must share for one to continue the other: the plan, the rules and the sources."""
         arms = dict.fromkeys(unit.arm for unit in self.units if unit.arm)
         return {
-            **self.settings._asdict(),
-            "own": {one.name: _digest(one.text) for one in self.settings.own},
+            **self.request.common(),
+            "own": {law.name: _digest(law.text) for law in self.request.user_laws},
             "units": [dataclasses.astuple(unit) for unit in self.units],
             "arms": {name: _digest(tasks.arm(name).xml) for name in arms},
             "rules": list(RULES),
@@ -74,69 +77,51 @@ def _digest(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-def chosen(choice: Choice) -> list[Experiment]:
+def chosen(request: Request) -> list[Experiment]:
     """Return the experiments that are named, or else take every kind of word; Incompatible if none takes a word."""
-    if not choice.experiments:
-        return _taking(choice)
-    found = [one for name, one in known_experiments().items() if name in choice.experiments]
+    if not request.experiments:
+        return _taking(request)
+    found = [one for name, one in known_experiments().items() if name in request.experiments]
     taken = {kind for one in found for kind in one.takes}
-    for kind in choice.named:
+    for kind in request.named_kinds:
         if kind not in taken:
             raise Incompatible(
-                f"'{getattr(choice, kind)[0]}' cannot narrow the experiment '{found[0].name}', which takes "
+                f"'{getattr(request, kind)[0]}' cannot narrow the experiment '{found[0].name}', which takes "
                 f"{', '.join(sorted(taken)).replace('_', ' ') or 'no other words'} (leave one of the two away)"
             )
     return found
 
 
-def _taking(choice: Choice) -> list[Experiment]:
+def _taking(request: Request) -> list[Experiment]:
     """Return the experiments that take every kind of word named; Incompatible if two words exclude each other."""
-    found = [one for one in known_experiments().values() if set(choice.named) <= set(one.takes)]
+    kinds = request.named_kinds
+    found = [one for one in known_experiments().values() if set(kinds) <= set(one.takes)]
     taken = [set(one.takes) for one in known_experiments().values()]
-    for pair in itertools.combinations(choice.named, 2):
-        if not any(set(pair) <= kinds for kinds in taken):
-            both = " and ".join(_shown(choice, kind) for kind in pair)
+    for pair in itertools.combinations(kinds, 2):
+        if not any(set(pair) <= takes for takes in taken):
+            both = " and ".join(_shown(request, kind) for kind in pair)
             raise Incompatible(f"nothing to run: no experiment takes both {both} (leave one of the two away)")
-    if choice.tasks and set(choice.tasks) <= set(tasks.contact_names()):
-        for kind in set(choice.named) - set(known_experiments()["contact"].takes):
+    if request.tasks and set(request.tasks) <= set(tasks.contact_names()):
+        for kind in set(kinds) - set(known_experiments()["contact"].takes):
             raise Incompatible(
-                f"tasks in contact take an arm and a --controller, no {_shown(choice, kind)} (try: bench "
+                f"tasks in contact take an arm and a --controller, no {_shown(request, kind)} (try: bench "
                 "list controllers)"
             )
     return found
 
 
-def _shown(choice: Choice, kind: str) -> str:
-    return f"{kind.replace('_', ' ')} such as '{getattr(choice, kind)[0]}'"
+def _shown(request: Request, kind: str) -> str:
+    return f"{kind.replace('_', ' ')} such as '{getattr(request, kind)[0]}'"
 
 
-def make(
-    suite_word: str,
-    laws: list[Contender],
-    choice: Choice = EVERYTHING,
-    *,
-    count: int | None = None,
-    dt_s: float = 1e-3,
-    horizon_s: float | None = None,
-    gains: Gains = PAPERS_GAINS,
-    integrator: str | None = None,
-    seed: int = 0,
-) -> Plan:
-    """Return the plan of a suite, as the user narrowed it; raise UnknownWord, BadNumber or Incompatible if it has none.
-
-    Args:
-        laws: the contenders of the free body; on arms the same laws, by the suite's Jacobians and inverses.
-        count: of the starts of each set, and the poses of each task in contact; the suite's numbers if None.
-        integrator: everywhere; IN_CONTACT in contact and WITHOUT elsewhere if None.
-    """
-    check_numbers(dt_s, horizon_s, gains, count, seed)
-    if integrator is not None:
-        check_word("integrator", integrator, list(INTEGRATORS))
-    for word in choice.experiments:
+def make(request: Request) -> Plan:
+    """Return the plan of a request; raise UnknownWord, BadNumber or Incompatible if it has none."""
+    request = checked(request)
+    for word in request.experiments:
         check_word("experiment", word, list(known_experiments()))
-    asked = Asked(suite(suite_word), tuple(laws), choice.checked(), count, horizon_s, seed, gains)
-    units = tuple(unit for one in chosen(asked.choice) for unit in one.units(asked))
+    units: list[Unit] = []
+    for experiment in chosen(request):
+        units += experiment.units(request)
     if not units:
         raise Incompatible("nothing to run: no unit of the experiments is left (name fewer words, or other ones)")
-    without, in_contact = integrator or WITHOUT, integrator or IN_CONTACT
-    return Plan(Settings(asked.suite.name, gains, dt_s, without, in_contact, seed, asked.own), units)
+    return Plan(request, tuple(units))

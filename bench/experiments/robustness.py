@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -14,12 +14,12 @@ from bench.base.on_first_use import pd
 from bench.engines.episode import Settings as Limits
 from bench.engines.episode import blank
 from bench.engines.metrics.registry import metrics_of
-from bench.experiments.choice import Choice
 from bench.experiments.columns import SINGLE, of_metrics, read_table
 from bench.experiments.episode_rows import episode_columns, lost_numbers, measured_columns
 from bench.experiments.episodes import prepare_law
-from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit
-from bench.experiments.suites import BOUNDED, Robustness
+from bench.experiments.experiment import OF_LAWS, Experiment, Unit
+from bench.experiments.request import Request
+from bench.experiments.suites import BOUNDED
 from bench.law.contender import Contender
 from bench.law.contenders.registry import papers_laws
 from tasks.condition import Condition, condition_at
@@ -35,88 +35,91 @@ EPISODE_S = 6e-4
 
 
 @functools.lru_cache(maxsize=8)
-def units(asked: Asked) -> tuple[Unit, ...]:
+def units(request: Request) -> tuple[Unit, ...]:
     """Return the units of a suite's part, `count` starts a level; Incompatible if no law can meet what is named."""
-    part, choice = asked.suite.robustness, asked.choice
-    if choice.tasks and "free-body" not in choice.tasks:
+    if request.tasks and "free-body" not in request.tasks:
         return ()
-    chosen = [one for one in asked.laws if _takes_part(one, part, choice)]
-    if choice.axes and not chosen:
+    section = request.section("robustness")
+    contenders = [one for one in request.laws if _takes_part(one, section, request)]
+    if request.axes and not contenders:
         usual = papers_laws()[0].name
         raise Incompatible(f"nothing to run: along an axis go laws of the free body (try: --regulator {usual})")
-    axes = [tasks.axis(name) for name in choice.axes or tasks.axis_names()]
-    each, horizon_s = asked.count or part.starts, asked.horizon_s or HORIZON_S
-    return tuple(
-        Unit(
-            "robustness",
-            one.name,
-            selector=axis.name,
-            count=each,
-            total=each,
-            episodes=each * len(axis.levels),
-            horizon_s=horizon_s,
-        )
-        for one in chosen
-        for axis in axes
-        if _is_told_apart(one, axis.name, part, choice)
-    )
+    axes = [tasks.axis(name) for name in request.axes or tasks.axis_names()]
+    count = request.count or section["starts"]
+    found = []
+    for one in contenders:
+        for axis in axes:
+            if _may_differ(one, axis.name, section, request):
+                unit = Unit(
+                    "robustness",
+                    one.name,
+                    selector=axis.name,
+                    count=count,
+                    total=count,
+                    episodes=count * len(axis.levels),
+                    horizon_s=request.horizon_s or HORIZON_S,
+                )
+                found.append(unit)
+    return tuple(found)
 
 
-def _is_told_apart(one: Contender, axis: str, part: Robustness, choice: Choice) -> bool:
+def _may_differ(one: Contender, axis: str, section: Mapping[str, Any], request: Request) -> bool:
     """Return whether a law may differ along an axis from another law that runs there, or is named by the user."""
-    is_named = bool(choice.axes or choice.regulators or one.regulator.origin)
-    return is_named or not part.bounded or one.name not in BOUNDED or axis in part.bounded
+    if request.axes or request.regulators or one.regulator.origin:
+        return True
+    bounded = section["bounded"]
+    return not bounded or one.name not in BOUNDED or axis in bounded
 
 
-def _takes_part(one: Contender, part: Robustness, choice: Choice) -> bool:
+def _takes_part(one: Contender, section: Mapping[str, Any], request: Request) -> bool:
     """Tell whether it is a law on R or on the paper's coordinates, a user's, or named; and no actuator of MuJoCo's."""
-    is_wanted = bool(one.regulator.origin or choice.regulators or choice.representations)
-    is_usual = not one.uses_nonpaper_coordinates or part.others is None or one.name in part.others
+    is_wanted = bool(one.regulator.origin) or request.names_laws
+    is_usual = not one.uses_nonpaper_coordinates or section["others"] is None or one.name in section["others"]
     return (is_wanted or is_usual) and not one.regulator.in_engine
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+def rows(request: Request, unit: Unit) -> pd.DataFrame:
     """Return one row a level and start."""
     from bench.engines.simulate_bodies import run_disturbed as run
 
-    return simulated(settings, unit, run)
+    return simulated(request, unit, run)
 
 
-def simulated(settings: Settings, unit: Unit, simulate: Callable) -> pd.DataFrame:
+def simulated(request: Request, unit: Unit, simulate: Callable) -> pd.DataFrame:
     """Return one row a level and start, simulated as by `run_disturbed`; every law has the same starts and noise."""
-    one, axis, seed = settings.contender(unit.contender), tasks.axis(unit.selector), settings.seed
+    one, axis, seed = request.contender(unit.contender), tasks.axis(unit.selector), request.seed
     metrics, parts = metrics_of(on_arm=False), []
     # the judge's rules in ticks of a microsecond, which the condition's own steps replace
-    limits = Limits(settings.gains, 1e-6, round(1e6 * unit.horizon_s), 1)
+    limits = Limits(request.gains, 1e-6, round(1e6 * unit.horizon_s), 1)
     for level in axis.levels:
         condition, some = condition_at(axis, level), axis.starts(unit.count, seed, level)
-        rows = _rows(settings, some, condition, limits, simulate(one, some, condition, limits, metrics, seed))
+        rows = _rows(request, some, condition, limits, simulate(one, some, condition, limits, metrics, seed))
         parts.append(pd.DataFrame({"axis": axis.name, "level": level, **rows}))
     words = {name: one.words[name] for name in ("regulator", "representation")}
     return pd.concat(parts, ignore_index=True).assign(**words)
 
 
-def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
-    """Return the settings and the outcome, no measure."""
+def lost(request: Request, unit: Unit, outcome: str) -> pd.DataFrame:
+    """Return rows with the numbers of the request and the outcome, and no measure."""
     from bench.engines.plants.perturbed import EXTRA
 
     def simulate(_one: Contender, starts: list, _condition: Condition, _limits: Limits, metrics: tuple, _: int) -> Any:
         return lost_numbers(blank(len(starts), metrics, (0.0,) * EXTRA), outcome)
 
     nothing = dict.fromkeys((metric.column for metric in metrics_of(on_arm=False)), np.nan)
-    return simulated(settings, unit, simulate).assign(**nothing, variation=np.nan, judged_rad=np.nan)
+    return simulated(request, unit, simulate).assign(**nothing, variation=np.nan, judged_rad=np.nan)
 
 
-def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
+def is_whole(request: Request, unit: Unit, rows: pd.DataFrame) -> bool:
     """Tell whether every level is there."""
     return set(tasks.axis(unit.selector).levels) <= set(rows["level"])
 
 
-def _rows(settings: Settings, starts: list, condition: Condition, limits: Limits, numbers: np.ndarray) -> dict:
+def _rows(request: Request, starts: list, condition: Condition, limits: Limits, numbers: np.ndarray) -> dict:
     from bench.engines.plants import perturbed
 
     step_s = condition.period_s / perturbed.steps_of(condition)
-    ran = episode_columns(settings, starts, numbers, step_s, limits.ticks * limits.dt_s)
+    ran = episode_columns(request, starts, numbers, step_s, limits.ticks * limits.dt_s)
     finals = ran["final_angle_rad"]
     extra = numbers[:, -perturbed.EXTRA :]
     jumped = extra[:, perturbed.JUMPED]
@@ -143,7 +146,7 @@ EXPERIMENT = Experiment.of(
     table=read_table(__file__, "robustness", METRICS=lambda: of_metrics(metrics_of(on_arm=False), SINGLE)),
     takes=(*OF_LAWS, "axes"),
     cost_s=lambda unit: unit.episodes * EPISODE_S,
-    prepare=lambda settings, unit: prepare_law(settings, unit, "perturbed", metrics_of(on_arm=False)),
-    ticks=lambda settings, unit: unit.episodes * unit.horizon_s / SHORTEST_S,
+    prepare=lambda request, unit: prepare_law(request, unit, "perturbed", metrics_of(on_arm=False)),
+    ticks=lambda request, unit: unit.episodes * unit.horizon_s / SHORTEST_S,
     rank=3,
 )

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 
@@ -18,8 +19,9 @@ from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import OUTCOME, SETTLING_TICK, start_rows
 from bench.engines.episode import numbers as numbers_of
 from bench.engines.metrics.registry import metrics_of
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import Experiment, Unit
 from bench.experiments.field import ENGINE, ZERO, CommandField, about, size
+from bench.experiments.request import Request
 from bench.experiments.suites import BEST, LONG
 from bench.law.contender import Contender
 from bench.law.contenders.registry import contenders, find_contender
@@ -52,26 +54,26 @@ SAMPLE_S = 0.02
 HAVERSINE = NUMBERS.index("haversine")
 
 
-def units(asked: Asked) -> tuple[Unit, ...]:
+def units(request: Request) -> tuple[Unit, ...]:
     """Return a unit for each controller."""
     return tuple(Unit("shipped", selector=name, count=1, total=1, horizon_s=LONG) for name in contenders("shipped"))
 
 
-def rows(settings: Settings, unit: Unit) -> list[dict]:
+def rows(request: Request, unit: Unit) -> list[dict]:
     """Return the row of the controller, then that of each of BEST at its gains."""
     laws = [law for law in BEST if law.partition("/")[0] in contenders("regulators")]
-    return compare(contenders("shipped")[unit.selector], laws, settings, unit.horizon_s)
+    return compare(contenders("shipped")[unit.selector], laws, request, unit.horizon_s)
 
 
-def compare(one: AsShipped, laws: Iterable[str], settings: Settings, horizon_s: float) -> list[dict]:
+def compare(one: AsShipped, laws: Iterable[str], request: Request, horizon_s: float) -> list[dict]:
     """Return the row of a controller, then those of laws at its gains; no law takes the place of velocity commands."""
-    made = [row(one, "", Contender(one.law), settings, horizon_s) | {"findings": ", ".join(findings(one))}]
+    made = [row(one, "", Contender(one.law), request, horizon_s) | {"findings": ", ".join(findings(one))}]
     for law in laws if one.level != VELOCITY else ():
-        made.append(row(one, law, find_contender(law), settings, horizon_s) | {"findings": ""})
+        made.append(row(one, law, find_contender(law), request, horizon_s) | {"findings": ""})
     return made
 
 
-def row(one: AsShipped, law: str, contender: Contender, settings: Settings, horizon_s: float) -> dict:
+def row(one: AsShipped, law: str, contender: Contender, request: Request, horizon_s: float) -> dict:
     """Return a law's numbers at the gains of a controller."""
     gains = one.gains
     field = CommandField(contender, gains)
@@ -98,7 +100,7 @@ def row(one: AsShipped, law: str, contender: Contender, settings: Settings, hori
     if is_velocity:
         return found | {"starts": 0, "lost": 0, "away": 0} | dict.fromkeys(SETTLING_RAD, math.nan)
     memories = (memory_of(contender),) if law else (NEAR, ANTIPODE)  # of ours, which take matrices, both signs are one
-    return found | motion(contender, memories, settings._replace(gains=gains), horizon_s)
+    return found | motion(contender, memories, replace(request, gains=gains), horizon_s)
 
 
 def compute_bending(field: CommandField, angle: float) -> float:
@@ -121,14 +123,14 @@ def findings(one: AsShipped) -> tuple[str, ...]:
     return tuple(found.fault.name for found in audit(error, "wxyz", name=one.name).findings)
 
 
-def motion(contender: Contender, memories: tuple, settings: Settings, horizon_s: float) -> dict:
+def motion(contender: Contender, memories: tuple, request: Request, horizon_s: float) -> dict:
     """Simulate starts at rest from each of the memories, and count how they end."""
     from bench.engines.simulate import by_law
 
     angles = SETTLING_RAD
     begun = start_rows([Start("", tuple(q)) for angle in angles.values() for q in about(AXES, angle).tolist()])
-    metrics, limits, episodes = tuple(metrics_of(on_arm=False)), numbers_of(settings.limits(horizon_s)), []
-    every = round(SAMPLE_S / settings.dt_s)
+    metrics, limits, episodes = tuple(metrics_of(on_arm=False)), numbers_of(request.limits(horizon_s)), []
+    every = round(SAMPLE_S / request.dt_s)
     for memory in memories:
         curves = blank_curves(len(begun), limits.ticks // every, every)
         made = by_law(ENGINE, contender, begun, limits, metrics, curves, memory)
@@ -137,7 +139,7 @@ def motion(contender: Contender, memories: tuple, settings: Settings, horizon_s:
         episodes.append(np.column_stack((made[:, [OUTCOME, SETTLING_TICK]], farthest > allowed)))
     outcome, tick, is_away = np.reshape(episodes, (len(memories), len(angles), len(AXES), 3)).transpose(3, 1, 0, 2)
     settled = outcome == SETTLED
-    slowest = np.where(settled, tick, np.nan).max(axis=(1, 2)) * settings.dt_s
+    slowest = np.where(settled, tick, np.nan).max(axis=(1, 2)) * request.dt_s
     return {
         "starts": settled.size,
         "lost": int((~settled).sum()),

@@ -23,8 +23,9 @@ from bench.engines.metrics.registry import known_metrics
 from bench.experiments.columns import CONTENDER_KEY, read_table
 from bench.experiments.costs import count_operations
 from bench.experiments.episodes import prepare_law
-from bench.experiments.experiment import Experiment, Settings, Unit
+from bench.experiments.experiment import Experiment, Unit
 from bench.experiments.plan import Plan
+from bench.experiments.request import Request
 from bench.experiments.tables.statistics import order_interval, quantile
 from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders
@@ -78,21 +79,21 @@ def plan_of(pairs: Iterable[tuple[Contender, Situation]], seed: int = 0) -> Plan
     every = list(pairs)
     whole = Unit("situations", task="free-body", total=FIRST, horizon_s=HORIZON_S).part(0, FIRST)
     units = tuple(replace(whole, contender=law.name, selector=situation.word) for law, situation in every)
-    user_laws = tuple(dict.fromkeys(law.regulator for law, _ in every if law.regulator.origin))
-    return Plan(Settings("situations", seed=seed, own=user_laws), units)
+    laws = tuple(dict.fromkeys(law for law, _ in every))
+    return Plan(Request("situations", laws, seed=seed), units)
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+def rows(request: Request, unit: Unit) -> pd.DataFrame:
     """Return a row for each start of a law in a situation: exact 180° rotations, the same with noise, and the drawn."""
-    contender, situation = settings.contender(unit.contender), read_situation(unit.selector)
+    contender, situation = request.contender(unit.contender), read_situation(unit.selector)
     condition = situation.condition()
-    exact, noisy = run_half_turns(settings, contender, situation)
+    exact, noisy = run_half_turns(request, contender, situation)
     is_stuck = not np.isfinite(exact["time"]).all()
     most = FIRST if is_stuck else MOST
-    drawn = run_starts(settings, contender, situation, situation.starts(FIRST, settings.seed), condition)
+    drawn = run_starts(request, contender, situation, situation.starts(FIRST, request.seed), condition)
     while (count := len(drawn["time"])) < most and not is_precise(drawn["time"]):
-        further = situation.starts(2 * count, settings.seed)[count:]
-        more = run_starts(settings, contender, situation, further, condition)
+        further = situation.starts(2 * count, request.seed)[count:]
+        more = run_starts(request, contender, situation, further, condition)
         drawn = {name: np.concatenate((drawn[name], more[name])) for name in more}
     sets = {"exact": exact, "noisy": noisy, "drawn": drawn}
     frames = [
@@ -162,21 +163,21 @@ def count_typical(one: Contender) -> int:
 
 
 def run_half_turns(
-    settings: Settings, contender: Contender, situation: Situation
+    request: Request, contender: Contender, situation: Situation
 ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
     """Return the numbers of exact 180° rotations in a situation, and of the same under worst-case noise at 180°.
 
     The noise comes without delay at the shortest period.
     """
     at_rest = situation._replace(delay=NOMINAL.delay, period=NOMINAL.period, jump=NOMINAL.jump)
-    starts = tasks.axis("half-turn-noise").starts(EXACT, settings.seed, 0.0)
-    exact = run_starts(settings, contender, situation, starts, situation.condition())
-    noisy = run_starts(settings, contender, situation, starts, at_rest.condition(NOISE_RAD))
+    starts = tasks.axis("half-turn-noise").starts(EXACT, request.seed, 0.0)
+    exact = run_starts(request, contender, situation, starts, situation.condition())
+    noisy = run_starts(request, contender, situation, starts, at_rest.condition(NOISE_RAD))
     return exact, noisy
 
 
 def run_starts(
-    settings: Settings, contender: Contender, situation: Situation, starts: list[Start], condition: Condition
+    request: Request, contender: Contender, situation: Situation, starts: list[Start], condition: Condition
 ) -> dict[str, np.ndarray]:
     """Return the numbers of each start as the columns of settling.parquet have them."""
     from bench.engines.episode import FIRST_METRIC, OUTCOME, SETTLING_TICK
@@ -187,7 +188,7 @@ def run_starts(
     from tasks.truth import angle
 
     limits = Limits(Gains(KP, situation.kv), 1e-6, round(1e6 * HORIZON_S), 1)
-    numbers = run_disturbed(contender, starts, condition, limits, metrics(), settings.seed)
+    numbers = run_disturbed(contender, starts, condition, limits, metrics(), request.seed)
     step_s = condition.period_s / perturbed.steps_of(condition)
     is_settled = numbers[:, OUTCOME] == SETTLED
     at_jump = numbers[:, perturbed.JUMPED - perturbed.EXTRA]
@@ -213,9 +214,9 @@ EXPERIMENT = Experiment.of(
     globals(),
     "laws on the free body in situations of dimensionless numbers",
     table=read_table(__file__, "settling"),
-    units=lambda asked: (),
+    units=lambda request: (),
     cost_s=lambda unit: unit.episodes * START_S,
-    prepare=lambda settings, unit: prepare_law(settings, unit, "perturbed", metrics()),
-    ticks=lambda settings, unit: 3 * MOST * HORIZON_S / 1e-3,
+    prepare=lambda request, unit: prepare_law(request, unit, "perturbed", metrics()),
+    ticks=lambda request, unit: 3 * MOST * HORIZON_S / 1e-3,
     in_suites=False,
 )

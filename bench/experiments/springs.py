@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bench.base.on_first_use import ScipyRotation
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import Experiment, Unit
+from bench.experiments.request import Request
 from bench.law.contenders.registry import contenders
 from tasks.rotations import columns as columns_of
 
@@ -36,14 +37,14 @@ Moment = Callable[[np.ndarray], np.ndarray]
 SPRINGS = tuple(contenders("springs").values())
 
 
-def units(asked: Asked) -> tuple[Unit, ...]:
+def units(request: Request) -> tuple[Unit, ...]:
     """Return one unit."""
     return (Unit("springs", count=len(SPRINGS), total=len(SPRINGS), horizon_s=2.0),)
 
 
-def rows(settings: Settings, unit: Unit) -> list[dict]:
+def rows(request: Request, unit: Unit) -> list[dict]:
     """Return a row a spring and frame of its moment."""
-    rng = np.random.default_rng((settings.seed, 11))
+    rng = np.random.default_rng((request.seed, 11))
     axes = ScipyRotation.random(rng=rng).as_matrix()
     K = axes @ np.diag(STIFFNESSES) @ axes.T
     paths = rng.uniform(-WIDTH, WIDTH, (LOOPS, 3, 3)) / math.sqrt(3.0)

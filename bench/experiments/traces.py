@@ -15,7 +15,8 @@ from bench.experiments import free_body
 from bench.experiments.columns import SHARED, Column, read_table
 from bench.experiments.episode_rows import judged_columns
 from bench.experiments.episodes import prepare, simulate
-from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.experiment import OF_LAWS, Experiment, Unit, user_laws_last
+from bench.experiments.request import Request
 from bench.experiments.starts import on_arm
 from bench.experiments.suites import HORIZON, LONG, SHORT
 from bench.law.contender import Contender
@@ -38,18 +39,17 @@ def endings() -> list[Column]:
 TABLE = read_table(__file__, "traces", ENDING=endings)
 
 
-def laws(asked: Asked) -> list[Contender]:
+def laws(request: Request) -> list[Contender]:
     """Return the laws that are run on the free body."""
-    names = {unit.contender for unit in free_body.units(asked)}
-    return [one for one in asked.laws if one.name in names]
+    names = {unit.contender for unit in free_body.units(request)}
+    return [one for one in request.laws if one.name in names]
 
 
-def units(asked: Asked) -> tuple[Unit, ...]:
+def units(request: Request) -> tuple[Unit, ...]:
     """Return a unit a law on the free body, continuous but for MuJoCo's own actuator; a user's last."""
-    if not asked.suite.traces:
-        return ()
-    followed = [one for one in laws(asked) if not one.is_beyond_the_paper]
-    return own_last([of_law(one, asked.suite.traces) for one in followed], asked.own)
+    count = request.section("traces")["uniform"]
+    followed = [one for one in laws(request) if count and not one.is_beyond_the_paper]
+    return user_laws_last([of_law(one, count) for one in followed], request)
 
 
 def of_law(one: Contender, count: int) -> Unit:
@@ -63,18 +63,18 @@ def of_arm(contender: str, task: str, arm: str, count: int, start_set: str) -> U
     return Unit("traces", contender, task, arm, "native", start_set, count=count, horizon_s=LONGEST_S)
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+def rows(request: Request, unit: Unit) -> pd.DataFrame:
     """Return the samples of all curves of a unit."""
-    every = max(1, round(EVERY_S / settings.dt_s))
+    every = max(1, round(EVERY_S / request.dt_s))
     sets = ((unit.selector, unit.count),) if unit.arm else (("paper", None), ("uniform", unit.count))
-    place = {"task": unit.task, "arm": unit.arm, **settings.contender(unit.contender).words}
+    place = {"task": unit.task, "arm": unit.arm, **request.contender(unit.contender).words}
     frames = []
     for name, count in sets:
-        starts = (on_arm if unit.arm else tasks.start_set)(name, count, settings.seed, unit.arm)
+        starts = (on_arm if unit.arm else tasks.start_set)(name, count, request.seed, unit.arm)
         names = ARM_NUMBERS if unit.arm else NUMBERS
         curves = blank_curves(len(starts), SAMPLES, every, names)
-        made = simulate(settings, unit, starts, unit.horizon_s if unit.arm else HORIZON.get(name, SHORT), curves)
-        endings = {"outcome": [""] * len(starts)} if unit.arm else judged_columns(made, settings.dt_s)
+        made = simulate(request, unit, starts, unit.horizon_s if unit.arm else HORIZON.get(name, SHORT), curves)
+        endings = {"outcome": [""] * len(starts)} if unit.arm else judged_columns(made, request.dt_s)
         whose = {**place, "engine": unit.engine, "start_set": name}
         is_kept = ~np.isnan(curves.samples[:, :, 0])
         lengths = is_kept.sum(axis=1)
@@ -86,10 +86,10 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     return pd.concat(frames, ignore_index=True).reindex(columns=TABLE.names)
 
 
-def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
+def is_whole(request: Request, unit: Unit, rows: pd.DataFrame) -> bool:
     """Tell whether rows are samples of the curves of a unit on the free body."""
     names = ("paper", None), ("uniform", unit.count)
-    known = {(name, one.id) for name, count in names for one in tasks.start_set(name, count, settings.seed)}
+    known = {(name, one.id) for name, count in names for one in tasks.start_set(name, count, request.seed)}
     return {*zip(rows["start_set"], rows["start_id"], strict=True)} == known
 
 
@@ -105,5 +105,5 @@ EXPERIMENT = Experiment.of(
     takes=OF_LAWS,
     prepare=prepare,
     cost_s=lambda unit: CURVE_S * curves_of(unit),
-    ticks=lambda settings, unit: curves_of(unit) * unit.horizon_s / settings.dt_s,
+    ticks=lambda request, unit: curves_of(unit) * unit.horizon_s / request.dt_s,
 )

@@ -18,8 +18,9 @@ import tasks
 from bench.engines.episode import FINAL_ANGLE, OUTCOME
 from bench.experiments import arm, starts
 from bench.experiments.episode_rows import episode_columns
-from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.experiment import OF_LAWS, Experiment, Unit, user_laws_last
 from bench.experiments.limiters import LIMITERS, NONE
+from bench.experiments.request import Request
 from bench.experiments.rounding import NUDGE, nudged
 from bench.experiments.suites import AT_VELOCITIES, BY_EVERY_INVERSE, SUITES, WITHOUT_FACTOR
 from bench.experiments.traces import laws
@@ -52,29 +53,28 @@ class Part(NamedTuple):
     lag_s: float = 0.0
 
 
-def units(asked: Asked) -> tuple[Unit, ...]:
+def units(request: Request) -> tuple[Unit, ...]:
     """Return a unit a law on the free body, and one a law, inverse and arm; a user's last."""
-    part, some = asked.suite.velocity, velocity_laws(asked)
-    made = [Unit("velocity", one.name, "free-body", count=part.starts, horizon_s=HORIZON_S) for one in some]
-    made += units_on_arms(asked, some, "velocity", count=part.on_arms, horizon_s=HORIZON_S)
-    return own_last(made, asked.own)
+    section, some = request.section("velocity"), velocity_laws(request)
+    made = [Unit("velocity", one.name, "free-body", count=section["starts"], horizon_s=HORIZON_S) for one in some]
+    made += units_on_arms(request, some, "velocity", count=section["on_arms"], horizon_s=HORIZON_S)
+    return user_laws_last(made, request)
 
 
-def units_on_arms(asked: Asked, laws: list[Contender], experiment: str, **more: Any) -> Iterator[Unit]:
+def units_on_arms(request: Request, laws: list[Contender], experiment: str, **more: Any) -> Iterator[Unit]:
     """Yield a unit a law and inverse on each arm of the plan."""
-    for name in dict.fromkeys(unit.arm for unit in arm.units(asked)):
+    for name in dict.fromkeys(unit.arm for unit in arm.units(request)):
         for one in (one for law in laws for one in on_joints(law, tasks.arm(name).joints)):
             yield Unit(experiment, one.name, "arm-regulation", name, **more)
 
 
-def velocity_laws(asked: Asked) -> list[Contender]:
+def velocity_laws(request: Request) -> list[Contender]:
     """Return the laws whose command at rest is an error vector: on R or the paper's coordinates, a user's, or named."""
-    is_named = asked.choice.is_of_some_laws
+    is_named = request.names_laws
     return [
         one
-        for one in laws(asked)
-        if is_velocity_law(one)
-        and (is_named or one.regulator.origin or not one.uses_nonpaper_coordinates)
+        for one in laws(request)
+        if is_velocity_law(one) and (is_named or one.regulator.origin or not one.uses_nonpaper_coordinates)
     ]
 
 
@@ -87,22 +87,22 @@ def on_joints(law: Contender, joints: int) -> list[Contender]:
     return [one for one in every if not refusal(one, joints)]
 
 
-def rows(settings: Settings, unit: Unit) -> dict:
+def rows(request: Request, unit: Unit) -> dict:
     """Return one row an episode, as columns."""
     from bench.engines.plants.velocity import BENT, FURTHEST, OFF, PATH, PEAK, RATE
 
-    every = list(parts(settings, unit))
+    every = list(parts(request, unit))
     lengths = [len(part.starts) for part in every]
-    made = np.vstack([_run(settings, unit, part, part.starts) for part in every])
+    made = np.vstack([_run(request, unit, part, part.starts) for part in every])
     some = [start for part in every for start in part.starts]
-    ran = episode_columns(settings, some, made, settings.dt_s, unit.horizon_s)
-    one = settings.contender(unit.contender)
+    ran = episode_columns(request, some, made, request.dt_s, unit.horizon_s)
+    one = request.contender(unit.contender)
     found = {
         **ran,
         "arm": unit.arm,
         **one.words,
         **{name: np.repeat([getattr(part, name) for part in every], lengths) for name in PLACED},
-        "gain": gain(settings),
+        "gain": gain(request),
         "path_ratio": made[:, PATH] / ran["angle0_rad"],
         "furthest_rad": np.fmax(2.0 * np.arcsin(np.sqrt(np.fmin(made[:, FURTHEST], 1.0))), made[:, FINAL_ANGLE]),
         "bent_rad": made[:, BENT],
@@ -115,51 +115,46 @@ def rows(settings: Settings, unit: Unit) -> dict:
         there = []
         for part in every:
             nudged_starts = [nudged(start, NUDGE) for start in part.starts]
-            there.append(_run(settings, unit, part, nudged_starts))
+            there.append(_run(request, unit, part, nudged_starts))
         found |= compare_nudged(made[:, changed], np.vstack(there)[:, changed])
     else:
         found |= {"rounding_change": np.nan, "outcome_beside": ""}
     return found
 
 
-def gain(settings: Settings) -> float:
+def gain(request: Request) -> float:
     """Return K [1/s]: the loop's pole is where the paper's gains have two."""
-    return math.sqrt(settings.gains.kp)
+    return math.sqrt(request.gains.kp)
 
 
-def parts(settings: Settings, unit: Unit) -> Iterator[Part]:
+def parts(request: Request, unit: Unit) -> Iterator[Part]:
     """Yield what a unit runs."""
     if unit.arm:
         for name in AT_VELOCITIES:
-            some = starts.on_arm(name, unit.count, settings.seed, unit.arm)
+            some = starts.on_arm(name, unit.count, request.seed, unit.arm)
             yield from (Part(name, some, lag_s=lag_s) for lag_s in LAGS_S)
         return
-    uniform = tasks.start_set("uniform", unit.count, settings.seed)
+    uniform = tasks.start_set("uniform", unit.count, request.seed)
     exact = [start for start in tasks.start_set("half-turn") if start.quat_wxyz[0] == 0.0]
-    few = uniform[: SUITES[settings.suite].velocity.limited if settings.suite in SUITES else unit.count]
+    few = uniform[: request.section("velocity")["limited"]] if request.suite in SUITES else uniform
     for share in (1.0, 0.5) if unit.contender == WITHOUT_FACTOR else (1.0,):
         yield Part("uniform", uniform, share=share)
         yield Part("half-turn", exact, share=share)
         yield from (Part("uniform", few, name, share) for name in LIMITERS if name != NONE)
 
 
-def _run(settings: Settings, unit: Unit, part: Part, some: list[Start]) -> np.ndarray:
+def _run(request: Request, unit: Unit, part: Part, some: list[Start]) -> np.ndarray:
     from bench.engines.simulate_arms import run_velocity as run
 
-    one, limit = settings.contender(unit.contender), LIMITERS[part.limiter].limit
-    K = part.share * gain(settings)
-    return run(one, limit, K, some, settings.limits(unit.horizon_s), unit.arm, part.lag_s)
+    one, limit = request.contender(unit.contender), LIMITERS[part.limiter].limit
+    K = part.share * gain(request)
+    return run(one, limit, K, some, request.limits(unit.horizon_s), unit.arm, part.lag_s)
 
 
 def compare_nudged(here: np.ndarray, there: np.ndarray) -> dict:
-    """Compare each row with the row of the run from a start 1e-12 rad away.
+    """Compare each row, an outcome and numbers, with the run from a start 1e-12 rad away.
 
-    Args:
-        here: A row an episode: the code of its outcome, then numbers.
-        there: The same of the episodes from the nudged starts.
-
-    Returns:
-        The largest relative change of a number, and the outcome there if it is another one.
+    Return the largest relative change of its numbers, and the other outcome if there is one.
     """
     was, now = here[:, 1:], there[:, 1:]
     with np.errstate(invalid="ignore"):
@@ -171,10 +166,10 @@ def compare_nudged(here: np.ndarray, there: np.ndarray) -> dict:
     }
 
 
-def prepare(settings: Settings, unit: Unit) -> None:
+def prepare(request: Request, unit: Unit) -> None:
     """Compile the loops, the limiters, the law and the inverse."""
     for limiter in LIMITERS:
-        _run(settings, unit, Part("", [], limiter), [])
+        _run(request, unit, Part("", [], limiter), [])
 
 
 EXPERIMENT = Experiment.of(
@@ -182,5 +177,5 @@ EXPERIMENT = Experiment.of(
     "first-order laws: robots commanded in velocity",
     takes=(*OF_LAWS, "arms"),
     cost_s=lambda unit: unit.count * (8.0 * EPISODE_S["arm"] if unit.arm else 4.0 * EPISODE_S[""]),
-    ticks=lambda settings, unit: 8.0 * unit.count * unit.horizon_s / settings.dt_s,
+    ticks=lambda request, unit: 8.0 * unit.count * unit.horizon_s / request.dt_s,
 )

@@ -20,8 +20,9 @@ import tasks
 from bench.base.bisection import bisect
 from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, NEVER
 from bench.experiments import velocity
-from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.experiment import OF_LAWS, Experiment, Unit, user_laws_last
 from bench.experiments.limiters import pass_all
+from bench.experiments.request import Request
 from bench.experiments.suites import BY_EVERY_INVERSE, WITHOUT_FACTOR
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import find_contender
@@ -47,26 +48,26 @@ DT_S = 0.1
 """The control period has no effect on K dt; with this one commands keep far from the judge's limit of speed."""
 
 
-def units(asked: Asked) -> tuple[Unit, ...]:
+def units(request: Request) -> tuple[Unit, ...]:
     """Return a unit a law on the free body; on each arm one for each inverse of one law."""
-    some = velocity.velocity_laws(asked)
+    some = velocity.velocity_laws(request)
     made = [Unit("velocity-limits", one.name, "free-body") for one in some]
-    made += velocity.units_on_arms(asked, [one for one in some if one.name == BY_EVERY_INVERSE], "velocity-limits")
-    return own_last(made, asked.own)
+    made += velocity.units_on_arms(request, [one for one in some if one.name == BY_EVERY_INVERSE], "velocity-limits")
+    return user_laws_last(made, request)
 
 
-def rows(settings: Settings, unit: Unit) -> list[dict]:
+def rows(request: Request, unit: Unit) -> list[dict]:
     """Return one row a reach and lag."""
-    one = settings.contender(unit.contender)
+    one = request.contender(unit.contender)
     if unit.arm:
         start = [_on_arm(unit.arm)]
-        found = [("near", 1.0, lag, near(settings, unit, start, lag)) for lag in lags(unit)]
+        found = [("near", 1.0, lag, near(request, unit, start, lag)) for lag in lags(unit)]
     else:
         begun = [Start("", about(axis, NEAR_RAD)) for axis in AXES]
-        limit = near(settings, unit, begun, 0.0)
-        found = [("near", 1.0, 0.0, limit), ("far", 1.0, 0.0, far(settings, unit))]
+        limit = near(request, unit, begun, 0.0)
+        found = [("near", 1.0, 0.0, limit), ("far", 1.0, 0.0, far(request, unit))]
         if unit.contender == WITHOUT_FACTOR:
-            found += [("near", 0.5, 0.0, near(settings, unit, begun, 0.0, 0.5))]
+            found += [("near", 0.5, 0.0, near(request, unit, begun, 0.0, 0.5))]
     place, names = {"arm": unit.arm, **one.words}, ("reach", "share", "lag_ticks", "k_dt")
     return [place | dict(zip(names, each, strict=True)) for each in found]
 
@@ -86,35 +87,35 @@ def _on_arm(name: str) -> Start:
     return judge.start("", q, multiply(about(FAR_AXIS, NEAR_RAD), judge.pose(q)[1]))
 
 
-def near(settings: Settings, unit: Unit, begun: list[Start], lag_ticks: float, share: float = 1.0) -> float:
+def near(request: Request, unit: Unit, begun: list[Start], lag_ticks: float, share: float = 1.0) -> float:
     """Compute the largest K dt at which none of the errors near the goal has grown."""
 
     def holds(k_dt: float) -> bool:
-        made = _run(settings, unit, begun, share * k_dt, round(TICKS * (1.0 + lag_ticks)), lag_ticks)
+        made = _run(request, unit, begun, share * k_dt, round(TICKS * (1.0 + lag_ticks)), lag_ticks)
         return bool((made[:, FINAL_ANGLE] <= NEAR_RAD).all())
 
     return bisect(holds, 0.0, GREATEST, BISECTIONS)[0]
 
 
-def far(settings: Settings, unit: Unit) -> float:
+def far(request: Request, unit: Unit) -> float:
     """Compute the largest K dt at which a tick makes no error of SCAN_RAD larger."""
     from bench.engines.plants.velocity import PATH
 
     begun = [Start("", about(FAR_AXIS, float(angle))) for angle in SCAN_RAD]
 
     def holds(k_dt: float) -> bool:
-        made = _run(settings, unit, begun, k_dt, 1)
+        made = _run(request, unit, begun, k_dt, 1)
         return bool(((made[:, FINAL_ANGLE] <= SCAN_RAD) & (made[:, PATH] <= 2.0 * SCAN_RAD)).all())
 
     return bisect(holds, 0.0, GREATEST, BISECTIONS)[0]
 
 
-def _run(settings: Settings, unit: Unit, begun: list, k_dt: float, ticks: int, lag_ticks: float = 0.0) -> np.ndarray:
+def _run(request: Request, unit: Unit, begun: list, k_dt: float, ticks: int, lag_ticks: float = 0.0) -> np.ndarray:
     """Return rows of `plants.velocity` of episodes that take so many ticks, unless the robot is lost before."""
     from bench.engines.simulate_arms import run_velocity as run
 
-    limits = settings.limits(1.0)._replace(dt_s=DT_S, ticks=ticks, hold_ticks=ticks + 1)
-    one = settings.contender(unit.contender)
+    limits = request.limits(1.0)._replace(dt_s=DT_S, ticks=ticks, hold_ticks=ticks + 1)
+    one = request.contender(unit.contender)
     made = run(one, pass_all, k_dt / DT_S, begun, limits, unit.arm, lag_ticks * DT_S)
     made[made[:, FAILURE_TICK] != NEVER, FINAL_ANGLE] = math.inf
     return made
@@ -126,5 +127,5 @@ EXPERIMENT = Experiment.of(
     takes=(*OF_LAWS, "arms"),
     cost_s=lambda unit: ARM_S if unit.arm else LAW_S,
     prepare=velocity.prepare,
-    ticks=lambda settings, unit: 1e6,
+    ticks=lambda request, unit: 1e6,
 )

@@ -12,10 +12,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from bench.base.errors import BadResults, UnknownWord
+from bench.base.errors import BadResults, NoEvidence, UnknownWord
 from bench.findings.amounts import join_words
 from bench.findings.claims.adequacy import HELD_RAD, PAPERS
-from bench.findings.claims.verdict import NoEvidence
 from bench.findings.kept import keep
 from bench.findings.selection import regions
 from bench.findings.selection.bounded import explain_bounded, find_bounded
@@ -314,8 +313,8 @@ def _price_on_robot(law: str, run: Path) -> str:
 def _list_weak_places(law: str, run: Path) -> Iterator[str]:
     """Yield where a law fails from rest, where it is slow, and what noise traps it; nothing that was not tried."""
     # They read rows, which the answer of the map does not need.
+    from bench.experiments.tables.run import Run
     from bench.findings.claims.adequacy import SLOW
-    from bench.findings.claims.tables import Results
     from bench.findings.failure_places import (
         HALF_TURN,
         describe_failures,
@@ -325,7 +324,7 @@ def _list_weak_places(law: str, run: Path) -> Iterator[str]:
     from bench.findings.replication import starts_at_rest
 
     try:
-        results = Results(run)
+        results = Run(run)
         rows = starts_at_rest(results)
         rows = rows[rows["contender"].astype(str) == law]
         noise = least_trapping_noise(results, law)

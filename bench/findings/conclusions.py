@@ -13,14 +13,15 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from bench.base.errors import NoTable
+from bench.base.errors import NoEvidence, NoTable
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.statistics import Estimate
 from bench.findings import replication
 from bench.findings.answer import attribute, find_answer
-from bench.findings.claims import Results, judge_possible
+from bench.findings.claims import judge_possible
 from bench.findings.claims.adequacy import PAPERS, THREE
 from bench.findings.claims.performance import feedback_gain
-from bench.findings.claims.verdict import NoEvidence, Word
+from bench.findings.claims.verdict import Word
 from bench.findings.failure_places import describe_failures
 from bench.findings.kept import keep
 from bench.findings.selection.words import together
@@ -55,15 +56,14 @@ def read_texts() -> dict[str, dict[str, Any]]:
     }
 
 
-def conclude(results: Results) -> list[Conclusion]:
+def conclude(run: Run) -> list[Conclusion]:
     """Return the conclusions in the paper's order, judged on a run."""
-    verdicts, _ = judge_possible(results)
+    verdicts, _ = judge_possible(run)
     words = {verdict.id: verdict.word for verdict in verdicts}
-    is_kept = results.folder is not None and results.is_as_stored
-    if is_kept and results.folder:
-        findings = keep(results.folder, "conclusions", lambda: find_all(results))
+    if run.is_as_stored:
+        findings = keep(run.folder, "conclusions", lambda: find_all(run))
     else:
-        findings = find_all(results)
+        findings = find_all(run)
     return [
         Conclusion(
             name=name,
@@ -86,14 +86,14 @@ def weakest_word(words: Mapping[str, Word], claims: Sequence[str]) -> Word:
     return max((words[claim] for claim in claims), key=list(Word).index)
 
 
-def find_all(results: Results) -> dict[str, str]:
+def find_all(run: Run) -> dict[str, str]:
     """Return the sentence of every conclusion; one that begins with 'Not tested' where the run lacks its rows."""
-    return {name: _find_or_say(FINDINGS[name], results) for name in read_texts()}
+    return {name: _find_or_say(FINDINGS[name], run) for name in read_texts()}
 
 
-def _find_or_say(find: Callable[[Results], str], results: Results) -> str:
+def _find_or_say(find: Callable[[Run], str], run: Run) -> str:
     try:
-        return find(results)
+        return find(run)
     except (NoEvidence, NoTable) as error:
         return f"Not tested: {str(error).partition(': ')[0]}."
 
@@ -113,13 +113,13 @@ def percents(share: Any) -> str:
     return f"{100 * share.value:.3g} % ({100 * share.low:.3g} to {100 * share.high:.3g} %)"
 
 
-def _rows_of(results: Results, law: str) -> Any:
-    rows = replication.starts_at_rest(results)
+def _rows_of(run: Run, law: str) -> Any:
+    rows = replication.starts_at_rest(run)
     return rows[rows["contender"].astype(str) == law]
 
 
-def _fails_at(results: Results, law: str, subject: str) -> str:
-    places = describe_failures(_rows_of(results, law))
+def _fails_at(run: Run, law: str, subject: str) -> str:
+    places = describe_failures(_rows_of(run, law))
     starts = [f"from {name_starts(place)}" for place in places]
     return (
         f"{subject} fails {together(starts, len(starts))}"
@@ -142,32 +142,32 @@ def name_starts(place: str) -> str:
     return f"starts {words}" if words.startswith("near ") else f"starts at {words}"
 
 
-def _find_matrix(results: Results) -> str:
-    settling = replication.measure_settling(_rows_of(results, MATRIX))
-    fails = _fails_at(results, MATRIX, "The rotation-matrix law")
+def _find_matrix(run: Run) -> str:
+    settling = replication.measure_settling(_rows_of(run, MATRIX))
+    fails = _fails_at(run, MATRIX, "The rotation-matrix law")
     if math.isinf(settling.nearly_all.value):
         return f"{percents(settling.share)} of the random starts settle. {fails}."
     time = interval(settling.nearly_all, unit=" s")
     return f"99 % of the random starts settle within {time}. {fails}."
 
 
-def _find_linearized(results: Results) -> str:
-    settling = replication.measure_settling(_rows_of(results, LINEARIZED))
-    fails = _fails_at(results, LINEARIZED, "The linearized law")
+def _find_linearized(run: Run) -> str:
+    settling = replication.measure_settling(_rows_of(run, LINEARIZED))
+    fails = _fails_at(run, LINEARIZED, "The linearized law")
     return f"{percents(settling.share)} of the random starts settle. {fails}."
 
 
-def _find_feedback(results: Results) -> str:
-    gain, gains = feedback_gain(results), results.gains()
+def _find_feedback(run: Run) -> str:
+    gain, gains = feedback_gain(run), run.gains()
     return (
         "With the rotation-matrix law, the time in which 99 % of the starts settle is "
         f"{interval(gain)} times the time with feedback linearization, at kp = {gains.kp:g} and "
-        f"kv = {gains.kv:g}. {_fails_at(results, FEEDBACK, 'Feedback linearization')}."
+        f"kv = {gains.kv:g}. {_fails_at(run, FEEDBACK, 'Feedback linearization')}."
     )
 
 
-def _find_cost(results: Results) -> str:
-    examined = replication.examine_laws(results)
+def _find_cost(run: Run) -> str:
+    examined = replication.examine_laws(run)
     ratio = replication.time_over(examined.ledger, FEEDBACK, MATRIX)
     if ratio is None:
         raise NoEvidence("no law of the paper was timed: run bench time")
@@ -178,8 +178,8 @@ def _find_cost(results: Results) -> str:
     )
 
 
-def _find_no_regulator(results: Results) -> str:
-    examined, gains = replication.examine_laws(results), results.gains()
+def _find_no_regulator(run: Run) -> str:
+    examined, gains = replication.examine_laws(run), run.gains()
     if MATRIX not in examined.laws:
         raise NoEvidence(f"{MATRIX} did not run from the starts that the claim needs")
     pace = examined.laws[MATRIX].pace
@@ -192,8 +192,8 @@ def _find_no_regulator(results: Results) -> str:
     )
 
 
-def _find_jacobian(results: Results) -> str:
-    both = replication.compare_jacobians(results)
+def _find_jacobian(run: Run) -> str:
+    both = replication.compare_jacobians(run)
     harder = Estimate(*(float(f"{ratio:.2g}") for ratio in both.harder))
     return (
         f"When an arm passes gimbal lock, the Euler Jacobian needs {interval(harder, 'g')} times "
@@ -202,8 +202,8 @@ def _find_jacobian(results: Results) -> str:
     )
 
 
-def _find_compliance(results: Results) -> str:
-    wrong = replication.measure_wrong_axis(results)
+def _find_compliance(run: Run) -> str:
+    wrong = replication.measure_wrong_axis(run)
     return (
         f"If two axes comply and the end effector is tilted by β = {wrong.tilt_deg:.0f}°, the end "
         f"effector turns about an axis that is {wrong.middle:.0f}° away from the axis of the "
@@ -211,12 +211,12 @@ def _find_compliance(results: Results) -> str:
     )
 
 
-def _find_answers(results: Results) -> str:
-    examined, advised = replication.examine_laws(results), find_answer().law
+def _find_answers(run: Run) -> str:
+    examined, advised = replication.examine_laws(run), find_answer().law
     if advised not in examined.laws:
         untested = f"The advised law, {advised}, was not tested in this run."
         return f"{_name_answers(examined, 'pass all our tests of a better regulator')} {untested}"
-    settling = replication.measure_settling(_rows_of(results, advised))
+    settling = replication.measure_settling(_rows_of(run, advised))
     failed = f" The advised law fails a test: {examined.tested[advised]}."
     passes = "" if advised in examined.answers else failed
     return (
@@ -244,7 +244,7 @@ def _name_answers(examined: replication.ExaminedLaws, what: str) -> str:
     )
 
 
-FINDINGS: dict[str, Callable[[Results], str]] = {
+FINDINGS: dict[str, Callable[[Run], str]] = {
     "rotation-matrix": _find_matrix,
     "linearized-euler": _find_linearized,
     "feedback-linearized": _find_feedback,

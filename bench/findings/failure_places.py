@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from bench.base.on_first_use import pd
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.statistics import quantile_estimate
 from bench.findings.claims import places as start_places
 from bench.findings.claims.adequacy import HELD_RAD, NOISE
 from bench.findings.claims.places import EXACT_RAD
-from bench.findings.claims.tables import Results, settled, settling_times
+from bench.findings.claims.tables import settled, settling_times
 
 HALF_TURN, GIMBAL_LOCK = "exactly 180 deg", "gimbal lock"
 
@@ -86,12 +87,12 @@ def slowness_near_half_turn(rows: pd.DataFrame) -> float | None:
     return float(near.max() / median) if len(near) and np.isfinite(median) else None
 
 
-def least_trapping_noise(results: Results, law: str) -> float | None:
+def least_trapping_noise(run: Run, law: str) -> float | None:
     """Return the smallest sensor error tried that traps a law at 180 degrees [rad], up to HELD_RAD.
 
     Infinite: none of them does. None: the law was not tried under noise, or fails there without it.
     """
-    rows = results.table("robustness", axis=NOISE)
+    rows = run.table("robustness", axis=NOISE)
     rows = rows[rows["contender"].astype(str) == law]
     tried = rows[(rows["level"] > 0.0) & (rows["level"] <= HELD_RAD)]
     if tried.empty or not settled(rows[rows["level"] == 0.0]).all():

@@ -8,10 +8,10 @@ from typing import Any
 import pandas as pd
 
 from bench.experiments import plan as planning
-from bench.experiments.choice import Choice
 from bench.experiments.experiment import Unit
 from bench.experiments.plan import Plan
-from bench.experiments.tables.read import table, with_contender
+from bench.experiments.request import Request
+from bench.experiments.tables.run import Run, with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import why
 from bench.findings.judgement import Judgement
@@ -19,14 +19,13 @@ from bench.findings.raised import find_exception
 from bench.law.contender import Contender
 from bench.law.contenders.registry import contenders_of
 from bench.law.kinds import Law
-from bench.running.sandbox import LOST, Sandbox
+from bench.running.sandbox.sandbox import LOST, Sandbox
 from tasks.verdict import CRASHED, OUTCOMES
 
 ENGINE = "ideal-rk4"
 START_SETS = ("uniform", "half-turn", "tumbling", "goals")
-LIMIT_S, TRIED = 5.0, 3
-"""Seconds of processor time for a unit, ten times what a law of ours takes; and episodes of a lost one that are tried
-singly before the rest counts as lost too."""
+LIMIT_S = 5.0
+"""Seconds of processor time for a unit or a stretch of one, ten times what a law of ours takes for a unit."""
 
 Parts = dict[tuple[str, str], list[pd.DataFrame]]
 """Rows by law and experiment."""
@@ -35,14 +34,14 @@ Parts = dict[tuple[str, str], list[pd.DataFrame]]
 def judge_laws(
     regulators: Iterable[Law], limit_s: float = LIMIT_S, report: Callable[[Unit], object] = bool
 ) -> list[Judgement]:
-    """Return the judgement of every law; a unit is hung after limit_s of processor time. BadLaw: a file is no law.
+    """Return the judgement of every law; 25 starts are hung after limit_s of processor time. BadLaw: a file is no law.
 
     report: is called with each unit that is run.
     """
     laws = contenders_of(*regulators)
     plan = plan_of(laws)
     parts: Parts = defaultdict(list)
-    with Sandbox(plan, limit_s, TRIED) as sandbox:
+    with Sandbox(plan, limit_s) as sandbox:
         look_at_commands(plan, sandbox, parts, report)
         explained = {one.name for one in laws if find_cause(one, parts)}
         rest = dataclasses.replace(plan, units=without(plan.units, explained))
@@ -101,9 +100,16 @@ def find_reason(one: Contender, episodes: pd.DataFrame) -> str:
 
 def plan_of(laws: list[Contender]) -> Plan:
     """Return the command field, the episodes and the perturbations of some laws."""
-    episodes = Choice(("free-body",), START_SETS, (ENGINE,), experiments=("free-body", "command-field"))
-    first = planning.make("quick", laws, episodes)
-    second = planning.make("quick", laws, Choice(experiments=("robustness",)))
+    every = Request("quick", tuple(laws))
+    episodes = dataclasses.replace(
+        every,
+        tasks=("free-body",),
+        start_sets=START_SETS,
+        engines=(ENGINE,),
+        experiments=("free-body", "command-field"),
+    )
+    first = planning.make(episodes)
+    second = planning.make(dataclasses.replace(every, experiments=("robustness",)))
     return dataclasses.replace(first, units=first.units + second.units)
 
 
@@ -133,7 +139,9 @@ def _beside(field: pd.DataFrame, episodes: pd.DataFrame) -> tuple[dict[str, Any]
     if field.empty or episodes.empty:
         return ()
     reference = RESULTS / "reference"
-    run = table(reference, "episodes")
+    whole = Run(reference)
+    run = whole.table("episodes")
     run = run[(run["arm"] == "") & (run["engine"] == ENGINE) & run["start_set"].isin(START_SETS)]
-    lines = why.beside(field, with_contender(episodes), table(reference, "command-field"), run).to_dict("records")
+    fields = whole.table("command-field")
+    lines = why.beside(field, with_contender(episodes), fields, run).to_dict("records")
     return tuple({key: None if value != value else value for key, value in line.items()} for line in lines)

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from bench.base.errors import NoTable
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.run import with_contender
 from bench.experiments.tables.statistics import Estimate
 from bench.experiments.tables.store import read
 from bench.law.inputs import Gains

@@ -19,7 +19,7 @@ import numpy as np
 import tasks
 from bench.base.on_first_use import pd
 from bench.experiments.columns import CONTENDER_KEY
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.run import with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.statistics import quantile
 from tasks.condition import condition_at

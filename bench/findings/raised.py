@@ -1,11 +1,11 @@
 """The exception that a user's law raises at a start, found by plain calls in a process of its own."""
 
-import sys
 from pathlib import Path
 
 import pandas as pd
 
 from bench.base.errors import BadLaw
+from bench.base.isolated import TimeLimits
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.law_process import answer, ask
 from bench.law.contenders.registry import contenders_of
@@ -13,8 +13,8 @@ from bench.law.inputs import AT_REST, Goal, Tuning
 from bench.law.kinds import Law
 from bench.law.so3 import from_quaternion
 
-LIMIT_S, WAITS_S = 10.0, 60.0
-"""Seconds of processor time and on the wall for the calls."""
+LIMITS = TimeLimits(processor_s=10.0, wall_s=60.0)
+"""Of the calls."""
 
 
 def find_exception(law: Law, rows: pd.DataFrame) -> str:
@@ -22,7 +22,7 @@ def find_exception(law: Law, rows: pd.DataFrame) -> str:
     columns = [f"{prefix}quat_{part}" for prefix in ("", "goal_") for part in "wxyz"]
     asked = {"text": law.text, "origin": law.origin, "starts": rows[columns].to_numpy().tolist()}
     try:
-        return str(next(ask(__name__, asked, WAITS_S, law.origin)).get("raised", ""))
+        return str(ask(__name__, asked, LIMITS, law.origin).get("raised", ""))
     except BadLaw as error:
         return str(error)
 
@@ -41,4 +41,4 @@ def call_law(asked: dict, path: Path | None) -> dict[str, str]:
 
 
 if __name__ == "__main__":
-    answer(int(sys.argv[1]), LIMIT_S, call_law)
+    answer(call_law)

@@ -9,7 +9,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.suites import IDEAL_MOTORS
-from bench.experiments.tables.read import FREE_BODY, converged
+from bench.experiments.tables.run import FREE_BODY, MAIN_ENGINE, Run, converged, require_rows
 from bench.experiments.tables.statistics import Estimate, bootstrap, quantile_estimate
 from bench.findings.claims import compliance, side_by_side
 from bench.findings.claims.adequacy import (
@@ -26,15 +26,7 @@ from bench.findings.claims.controller_costs import BY_EULER, ON_MATRIX
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, PROBE
 from bench.findings.claims.standing import Ledger
-from bench.findings.claims.tables import (
-    MAIN_ENGINE,
-    Results,
-    Share,
-    settled,
-    settling_times,
-    share,
-    some,
-)
+from bench.findings.claims.tables import Share, settled, settling_times, share
 from bench.findings.selection.tables import by_standard_inverse
 from bench.findings.theory.closed_form import linear_settling
 from bench.law.control.contact_controller import PAPERS_FORM
@@ -56,15 +48,15 @@ class Settling(NamedTuple):
     nearly_all: Estimate
 
 
-def starts_at_rest(results: Results, engine: str = MAIN_ENGINE) -> pd.DataFrame:
+def starts_at_rest(run: Run, engine: str = MAIN_ENGINE) -> pd.DataFrame:
     """Return the episodes of all laws from rest to zero rotation whose end no shorter step moves."""
-    rows = results.table("episodes", **FREE_BODY, task="free-body", engine=engine)
+    rows = run.table("episodes", **FREE_BODY, task="free-body", engine=engine)
     return converged(rows[rows["start_set"].isin(AT_REST)])
 
 
 def measure_settling(rows: pd.DataFrame) -> Settling:
     """Return how the uniform starts among a law's rows end; NoEvidence: there is none."""
-    uniform = some(rows[rows["start_set"] == "uniform"], "uniform start of a law")
+    uniform = require_rows(rows[rows["start_set"] == "uniform"], "uniform start of a law")
     times = settling_times(uniform)
     return Settling(
         share(settled(uniform)), quantile_estimate(times, 0.5), quantile_estimate(times, NEARLY_ALL)
@@ -85,18 +77,18 @@ class Jacobians(NamedTuple):
     harder: Estimate
 
 
-def compare_jacobians(results: Results) -> Jacobians:
+def compare_jacobians(run: Run) -> Jacobians:
     """Return how both Jacobians do past gimbal lock; NoEvidence: no arm ran such moves by both."""
-    rows = results.table(
+    rows = run.table(
         "episodes", task="arm-regulation", variation=IDEAL_MOTORS, start_set="pole", engine="native"
     )
-    rows = by_standard_inverse(some(rows, "move of an arm past gimbal lock"))
+    rows = by_standard_inverse(require_rows(rows, "move of an arm past gimbal lock"))
     controller = rows["contender"].astype(str).str.partition("+")[0]
     columns = ["arm", "kp", "start_id", "outcome", "peak_torque_ratio"]
     geometric, euler = (rows.loc[controller == name, columns] for name in (ON_MATRIX, BY_EULER))
     keys = dict.fromkeys(("arm", "start_id", "outcome"), str)
     both = geometric.astype(keys).merge(euler.astype(keys), on=columns[:3], suffixes=("", "_euler"))
-    some(both, "move of an arm past gimbal lock by both Jacobians")
+    require_rows(both, "move of an arm past gimbal lock by both Jacobians")
     harder = both["peak_torque_ratio_euler"] / both["peak_torque_ratio"]
     return Jacobians(
         len(both),
@@ -128,31 +120,31 @@ class WrongAxis(NamedTuple):
         return self.off[(len(self.off) - 1) // 2]
 
 
-def measure_wrong_axis(results: Results, tilt_deg: float = TILT_DEG) -> WrongAxis:
+def measure_wrong_axis(run: Run, tilt_deg: float = TILT_DEG) -> WrongAxis:
     """Return how far off the axis is at the tilt that is nearest; NoEvidence: no arm was tilted about y alone."""
-    rows = results.table("compliance", task=PROBE, controller="hybrid", representation=COORDINATES)
+    rows = run.table("compliance", task=PROBE, controller="hybrid", representation=COORDINATES)
     is_level = (rows["alpha"].abs() < 1e-9) & (rows["gamma"].abs() < 1e-9)
     is_wanted = (
         is_level & (rows["form"] == PAPERS_FORM) & (rows["complies"] == compliance.LEVEL_PAIR)
     )
     rows = rows[is_wanted & (rows["outcome"] == "done") & (rows["beta"] > 0.0)]
-    some(rows, f"tilted end effector by {PROBE}, {compliance.LEVEL_PAIR}")
+    require_rows(rows, f"tilted end effector by {PROBE}, {compliance.LEVEL_PAIR}")
     away = (np.degrees(rows["beta"]) - tilt_deg).abs()
     nearest = rows[away <= away.min() + 1e-6]
     off = sorted(np.degrees(nearest["misalignment_rad"]).tolist())
     return WrongAxis(float(np.degrees(nearest["beta"].iloc[0])), tuple(off))
 
 
-def count_single_axes(results: Results) -> Share:
+def count_single_axes(run: Run) -> Share:
     """Count poses at which one angle complies about the same axis of the base; NoEvidence: there is none."""
     orders = compliance.ONE_AXIS
-    rows = side_by_side.beside_base(results, COORDINATES, orders, (PAPERS_FORM,))
+    rows = side_by_side.beside_base(run, COORDINATES, orders, (PAPERS_FORM,))
     is_away = (rows["cos_beta"] >= compliance.CLOSE_TO_POLE).to_numpy()
     C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
     same = side_by_side.apart(C, base) <= compliance.SAME
     return share(
         pd.Series(
-            same[some(is_away.nonzero()[0], f"pose of {PROBE} by {BASE} away from gimbal lock")]
+            same[require_rows(is_away.nonzero()[0], f"pose of {PROBE} by {BASE} away from gimbal lock")]
         )
     )
 
@@ -173,11 +165,11 @@ class ExaminedLaws(NamedTuple):
         ]
 
 
-def examine_laws(results: Results) -> ExaminedLaws:
+def examine_laws(run: Run) -> ExaminedLaws:
     """Return every law of a run by C27's tests, as the claim does; NoEvidence: the run lacks starts or costs."""
-    laws = {one.name: one for one in every(results, MAIN_ENGINE)}
-    ledger, small_s = of_three(results), linear_settling(*results.gains())
-    by_noise = held(results, HELD_RAD)
+    laws = {one.name: one for one in every(run, MAIN_ENGINE)}
+    ledger, small_s = of_three(run), linear_settling(*run.gains())
+    by_noise = held(run, HELD_RAD)
     tested = {name: examine(law, ledger, small_s, by_noise) for name, law in laws.items()}
     return ExaminedLaws(laws, tested, ledger, small_s)
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 import tasks
 from bench.base.on_first_use import pd
+from bench.experiments.slices import read_slices
 from bench.experiments.suites import SUITES
 
 AT_REST = ("half-turn", "poles", "wraps", "box")
@@ -22,10 +23,11 @@ def least_starts(engine: str, part: str = "slices") -> dict[str, int]:
 
     part: of a suite: `slices` of the paper's laws, `beyond` of later ones and in other coordinates.
     """
-    sizes = [
-        {one.start_set: tasks.start_set_length(one.start_set, one.size, 0) for one in slices if one.engine == engine}
-        for slices in (getattr(suite, part) for suite in SUITES.values())
-    ]
+    sizes = []
+    for suite in SUITES.values():
+        slices = read_slices(suite.sections["free-body"][part])
+        names = {one.selector: one.total or None for one in slices if one.engine == engine}
+        sizes.append({name: tasks.start_set_length(name, size, 0) for name, size in names.items()})
     shared = [name for name in ("uniform", *DIRECTED) if all(name in own for own in sizes)]
     return {name: min(own[name] for own in sizes) for name in shared}
 

@@ -15,7 +15,7 @@ import pandas as pd
 import tasks
 from bench.audit.faults.stiffness import UNITS
 from bench.experiments.command_field import EXCHANGED
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.run import with_contender
 from bench.experiments.tables.statistics import quantile
 from bench.findings.amounts import count_of, join_words
 from bench.findings.judgement import Sentence

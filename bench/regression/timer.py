@@ -22,9 +22,9 @@ from typing import Any, NamedTuple
 
 from bench.base.errors import Incompatible
 from bench.base.files import read_json
+from bench.base.isolated import confine, end_all
 from bench.base.processes import law_environment
 from bench.base.provenance import ROOT
-from bench.law.contenders.law_process import confine, end_all
 
 BENCHMARKS = Path("tests", "benchmarks")
 """Folder of the benchmarks in a checkout."""
@@ -131,7 +131,7 @@ class SideFailed(Incompatible):
 
 
 @dataclass
-class TimerProcess:
+class TimedRun:
     """A process of pytest, and the log that it writes.
 
     Attributes:
@@ -243,7 +243,7 @@ def _start(
     options: list[str],
     sockets: list[int],
     place: Path,
-) -> TimerProcess:
+) -> TimedRun:
     """Start the process of a side, which ends with the stack; place: its files, without suffix."""
     variables = dict(os.environ)
     token = secrets.token_hex(8)
@@ -279,10 +279,10 @@ def _start(
         stack.callback(end_all, token)
     stack.callback(process.wait)
     stack.callback(process.kill)
-    return TimerProcess(process, Path(log.name), place.with_suffix(".json"))
+    return TimedRun(process, Path(log.name), place.with_suffix(".json"))
 
 
-def _wait_for(runs: list[TimerProcess], report: Callable[[Progress], None]) -> int | None:
+def _wait_for(runs: list[TimedRun], report: Callable[[Progress], None]) -> int | None:
     """Wait for all processes; return the place of one that failed, the last one if all are silent."""
     while True:
         # First this, then the output: what a process says last is read before it is judged.

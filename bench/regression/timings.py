@@ -21,7 +21,7 @@ from bench.base.errors import BadLaw
 from bench.base.provenance import ROOT, describe, machine_key
 from bench.experiments.columns import CONTENDER_KEY
 from bench.experiments.tables import store
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.run import with_contender
 from bench.law.contender import Contender
 from bench.regression.timer import (
     BENCHMARKS,

@@ -31,7 +31,7 @@ from bench.running.precompile import end_without
 from bench.running.wire_format import described, plan_of
 
 LONGEST_S = 600.0
-"""On the wall, for all of it: as long as a law's process may take to start and to compile (sandbox_line.START_S)."""
+"""On the wall, for all of it: as long as a law's process may take to start and to compile (sandbox.pool.READY)."""
 
 UNCOMPILED = "reference"
 """The engine that runs plain Python."""
@@ -46,7 +46,7 @@ def compile_ours(plan: Plan, units: Iterable[Unit]) -> None:
             wanted[mark_of(ours)] = ours
     if not wanted:
         return
-    without_users = Plan(plan.settings._replace(own=()), tuple(wanted.values()))
+    without_users = Plan(dataclasses.replace(plan.request, laws=()), tuple(wanted.values()))
     content = json.dumps(described(without_users, without_users.units)).encode()
     command = module_command(__name__, str(os.getpid()))
     nowhere = subprocess.DEVNULL
@@ -107,7 +107,7 @@ def main(parent: int, content: dict) -> None:
     plan = plan_of(content)
     for unit in plan.units:
         with contextlib.suppress(BenchError, OSError):
-            experiment_of(unit).prepare(plan.settings, unit)
+            experiment_of(unit).prepare(plan.request, unit)
             mark = mark_of(unit)
             mark.parent.mkdir(parents=True, exist_ok=True)
             mark.touch()

@@ -103,7 +103,7 @@ def main(parent: int, content: dict) -> None:
 
     plan = plan_of(content["plan"])
     work: list[Callable[[], object]] = [
-        *(functools.partial(experiment_of(unit).prepare, plan.settings, unit) for unit in plan.units),
+        *(functools.partial(experiment_of(unit).prepare, plan.request, unit) for unit in plan.units),
         *(functools.partial(count_operations, find_contender(name)) for name in content["count"]),
     ]
     for first in range(0, len(work), LIFE):

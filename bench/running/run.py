@@ -14,13 +14,13 @@ import pyarrow as pa
 
 from bench.base.files import write_json
 from bench.base.provenance import describe
-from bench.experiments.choice import check_workers
 from bench.experiments.experiment import Unit, experiment_of, known_experiments
 from bench.experiments.plan import Plan
+from bench.experiments.request import check_workers
 from bench.experiments.tables.store import lost_table, merge, read_arrow, write_table
 from bench.running.precompile import compiling_ahead
 from bench.running.run_folder import begin, inspect, open_run_folder, part, read_part, sweep, tidy
-from bench.running.sandbox import LOST, Sandbox
+from bench.running.sandbox.sandbox import LOST, Sandbox
 from bench.running.schedulers import THREADS, check_scheduler, kind, threads
 
 
@@ -37,7 +37,7 @@ def run(
     """Carry out what is not done yet; return whether there was anything to do.
 
     workers: threads of this process. report: called with every unit when it is done. law_limit_s: how long a unit of
-    a user's law may take; None for the rule of `bench.running.sandbox`. BadResults: the folder cannot be used, or
+    a user's law may take; None for the rule of `sandbox.sandbox`. BadResults: the folder cannot be used, or
     another run is at work there. MissingTool, LostWorkers: a cluster. KeyboardInterrupt: after what is finished is
     written.
     """
@@ -54,7 +54,7 @@ def run(
         began = time.time()
         sandbox.check()
         todo = [unit for unit in in_running_order(plan.units) if unit.key not in state.done]
-        with _team(todo, out, workers, scheduler, sandbox) as carry_out:
+        with _executor(todo, out, workers, scheduler, sandbox) as execute:
             if state.done:
                 sweep(out)
                 for unit in state.spoiled:
@@ -64,14 +64,14 @@ def run(
             for unit in plan.units:
                 if unit.key in state.done:
                     report(unit)
-            by = {"scheduler": kind(scheduler), "workers": carry_out(report), "resumed": bool(state.done)}
+            by = {"scheduler": kind(scheduler), "workers": execute(report), "resumed": bool(state.done)}
         _finish(plan, out, sandbox, began, by)
         return True
 
 
 @contextlib.contextmanager
-def _team(todo: list[Unit], out: Path, workers: int, scheduler: str, sandbox: Sandbox) -> Iterator[Callable]:
-    """Return what carries out the units, reports each to its argument, and returns its number of workers.
+def _executor(todo: list[Unit], out: Path, workers: int, scheduler: str, sandbox: Sandbox) -> Iterator[Callable]:
+    """Yield execute(report), which carries out the units, reports each, and returns the number of workers.
 
     A cluster has answered when this yields, so that nothing is written, or replaced, for one that does not.
     """
@@ -114,12 +114,12 @@ def _finish(plan: Plan, out: Path, sandbox: Sandbox, began: float, about: dict) 
         out / "provenance.json",
         {
             **describe(),
-            "suite": plan.settings.suite,
+            "suite": plan.request.suite,
             "plan": plan.digest,
             "episodes": plan.episodes("free-body", "arm", "map"),
             "trials": plan.episodes("contact"),
             "troubled": plan.episodes("robustness"),
-            "seed": plan.settings.seed,
+            "seed": plan.request.seed,
             **about,
             "finished": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
             "wall_s": round(time.time() - began, 1),
@@ -133,19 +133,19 @@ def _finish(plan: Plan, out: Path, sandbox: Sandbox, began: float, about: dict) 
 
 def _parts(plan: Plan, out: Path, table: str, again: set[str], notes: list[str]) -> Iterator[pa.Table]:
     """Yield the rows of every unit of a table; note each unit of a user's law that has none, and should have some."""
-    own = {one.name for one in plan.settings.own}
+    own = {one.name for one in plan.request.user_laws}
     for unit in plan.units:
         experiment = experiment_of(unit)
         if experiment.table.name == table:
-            made = lost_table(plan.settings, unit, LOST[0]) if unit.key in again else read_part(plan, out, unit)
-            if unit.law in own and not made.num_rows and not experiment.is_whole(plan.settings, unit, made.to_pandas()):
+            made = lost_table(plan.request, unit, LOST[0]) if unit.key in again else read_part(plan, out, unit)
+            if unit.law in own and not made.num_rows and not experiment.is_whole(plan.request, unit, made.to_pandas()):
                 notes.append(f"{unit.label}: it has no rows of {table}")
             yield made
 
 
 def _lost_rows(plan: Plan, out: Path) -> Iterator[str]:
     """How many rows say that a user's law crashed or hung, whoever made them, and when."""
-    own = [one.name for one in plan.settings.own]
+    own = [one.name for one in plan.request.user_laws]
     for name, table in plan.tables.items() if own else ():
         if {"regulator", "outcome"} <= set(table.names):
             made = read_arrow(out / f"{name}.parquet", table).select(["regulator", "outcome"]).to_pandas().astype(str)

@@ -52,7 +52,10 @@ def open_run_folder(out: Path) -> Iterator[None]:
 
 
 def inspect(plan: Plan, out: Path, replace: bool = False) -> FolderState:
-    """Return what is done already in `out`, untouched; BadResults if it holds another plan, or is no run of ours."""
+    """Return which units are finished in `out`, and change nothing there; BadResults for a foreign folder.
+
+    A folder is foreign if it holds another plan, or files that no run of ours has made.
+    """
     out = Path(out)
     if not _content(out):
         return FolderState(False, frozenset())
@@ -101,7 +104,7 @@ def part(out: Path, unit: Unit) -> Path:
 
 
 SEAL = hashlib.sha256().digest_size
-"""Bytes at the beginning of a part: the digest of its plan (settings, rules, sources), its unit and its rows."""
+"""Bytes at the beginning of a part: the digest of its plan (request, rules, sources), its unit and its rows."""
 
 
 def _seal(plan: Plan, unit: Unit, content: bytes) -> bytes:
@@ -145,7 +148,7 @@ def begin(plan: Plan, out: Path) -> None:
     """Make the folder this plan's, whatever of ours it held."""
     _clear(out)
     write_json(out / "plan.json", {"digest": plan.digest, **plan.identity()})
-    for own in plan.settings.own:  # so that its rows can be read, and its report written, with what made them
+    for own in plan.request.user_laws:  # so that its rows can be read, and its report written, with what made them
         copy = out / "laws" / f"{own.name.replace('-', '_')}.py"
         write_atomically(copy, lambda temporary, own=own: Path(temporary).write_bytes(own.text.encode()))
         with contextlib.suppress(OSError):  # without it the report shows the law's rows, and asks to trust it

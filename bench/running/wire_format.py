@@ -10,8 +10,10 @@ from pathlib import Path
 
 from bench.base.errors import BadResults
 from bench.base.provenance import source_digest
-from bench.experiments.experiment import Settings, Unit
+from bench.experiments.experiment import Unit
 from bench.experiments.plan import Plan
+from bench.experiments.request import Request
+from bench.law.contender import Contender
 from bench.law.contenders import described_law
 from bench.law.contenders.law_file import keep_text
 from bench.law.inputs import Gains
@@ -21,10 +23,10 @@ from bench.law.kinds import Law
 def described(plan: Plan, units: Sequence[Unit]) -> dict:
     """Return the units and what they need of the plan as JSON; of the user's laws those that the units name."""
     named = {unit.law for unit in units}
-    laws = [one.text for one in plan.settings.own if one.name in named]
+    laws = [one.text for one in plan.request.user_laws if one.name in named]
     return {
         "sources": source_digest(),
-        "settings": {**plan.settings._asdict(), "own": laws},
+        "settings": {**plan.request.common(), "own": laws},
         "units": [dataclasses.astuple(unit) for unit in units],
     }
 
@@ -39,6 +41,7 @@ def plan_of(content: dict, read: Callable[[Path, bytes], Law] = described_law.de
             f"the plan was made by the sources {content['sources']}, this process has {source_digest()}; install the "
             "same commit and lock on every machine"
         )
-    own = tuple(read(keep_text(text), text.encode()) for text in content["settings"]["own"])
-    settings = Settings(**content["settings"] | {"gains": Gains(*content["settings"]["gains"]), "own": own})
-    return Plan(settings, tuple(Unit(*fields) for fields in content["units"]))
+    settings = dict(content["settings"])
+    laws = tuple(Contender(read(keep_text(text), text.encode())) for text in settings.pop("own"))
+    request = Request(**settings | {"gains": Gains(*settings["gains"]), "laws": laws})
+    return Plan(request, tuple(Unit(*fields) for fields in content["units"]))

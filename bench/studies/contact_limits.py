@@ -11,7 +11,7 @@ import pandas as pd
 
 import tasks
 from bench.engines.contact_episode import Conditions, Sensor
-from bench.experiments.contact import can_do, frame, poses_of
+from bench.experiments.contact import can_do, controllers_and_poses, frame, poses_of
 from bench.experiments.suites import SUITES
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import as_table
@@ -31,11 +31,11 @@ SETTINGS = {
 
 def run_setting(setting: str) -> list[dict]:
     """Return a row a pose of every task, arm and controller that the quick suite has."""
-    part, found = SUITES["quick"].in_contact, []
+    section, found = SUITES["quick"].sections["contact"], []
     for word in TASKS:
         task = tasks.contact_task(word)
         for arm in map(tasks.arm, tasks.arm_names()):
-            controllers, count = part.on(arm.joints)
+            controllers, count = controllers_and_poses(section, arm.joints)
             for one in map(find_controller, CONTROLLERS):
                 if can_do(task, arm) and one.name in controllers:
                     poses = poses_of(one, task, arm, dense=False)[:count]

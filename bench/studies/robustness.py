@@ -7,7 +7,7 @@ to either side at the widest.
 import shutil
 
 from bench.experiments import plan as planning
-from bench.experiments.choice import Choice
+from bench.experiments.request import Request
 from bench.experiments.tables.store import read
 from bench.findings.perturbed import STUDY, by_level
 from bench.law.contenders.registry import simulated_contenders
@@ -25,7 +25,8 @@ def main() -> None:
     """Run the study, or go on, and keep a row a law and level."""
     workers = make_parser("robustness", __doc__, workers=2).parse_args().workers
     laws = simulated_contenders()
-    plan = planning.make("default", laws, Choice(experiments=("robustness",)), count=STARTS)
+    request = Request("default", tuple(laws), count=STARTS, experiments=("robustness",))
+    plan = planning.make(request)
     run.run(plan, UNFINISHED, workers=workers)
     kept = by_level(read(UNFINISHED, "robustness"))
     keep_table("robustness", STUDY / "perturbed.parquet", kept, "perturbed", starts=STARTS)

@@ -10,7 +10,7 @@ from bench.base.errors import BadNumber
 from bench.base.files import read_json, write_json
 from bench.base.on_first_use import pd
 from bench.base.provenance import describe, source_digest
-from bench.experiments.choice import MOST_WORKERS, check_workers
+from bench.experiments.request import MOST_WORKERS, check_workers
 from bench.experiments.tables.store import write_table
 
 

@@ -18,15 +18,15 @@ from bench.base.files import read_json, write_json
 from bench.base.on_first_use import pd
 from bench.base.provenance import ROOT, source_digest
 from bench.experiments import plan as planning
-from bench.experiments.experiment import Settings, Unit, known_experiments, rows_of
+from bench.experiments.experiment import Unit, known_experiments, rows_of
 from bench.experiments.plan import Plan
+from bench.experiments.request import Request
 from bench.experiments.suites import IDEAL_MOTORS
-from bench.experiments.tables import read
+from bench.experiments.tables.run import MAIN_ENGINE, Run
 from bench.findings import claims
 from bench.findings.claims.adequacy import NOISE
 from bench.findings.claims.at_gains import GAINS, HALF_STEP, STORED, turned
 from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, ON_MATRIX
-from bench.findings.claims.tables import MAIN_ENGINE, Results
 from bench.law.contenders.registry import simulated_contenders
 from bench.running import run
 from bench.studies.study import describe_study, make_parser, make_parts
@@ -66,7 +66,8 @@ def plan_of(name: str) -> Plan:
     at_half = name == HALF_STEP
     laws = simulated_contenders()
     drawn = {"dt_s": STEP_S / 2} if at_half else {"seed": int(name)}
-    whole = planning.make(read_json(REFERENCE / "plan.json")["suite"], laws, **drawn)
+    suite = read_json(REFERENCE / "plan.json")["suite"]
+    whole = planning.make(Request(suite, tuple(laws), **drawn))
     wanted = STEPPED if at_half else DRAWN
     units = (one for one in whole.units if one.experiment in wanted and wanted[one.experiment](one))
     return dataclasses.replace(whole, units=tuple(units))
@@ -79,13 +80,14 @@ def judged(name: str, workers: int) -> dict:
         out = Path(folder) / "run"
         run.run(plan, out, workers=workers)
         made = {known_experiments()[unit.experiment].table.name for unit in plan.units}
-        shared = {table: read.table(REFERENCE, table) for table in plan.tables if table not in made}
-        results = Results(out, shared)
+        reference = Run(REFERENCE)
+        shared = {name: reference.table(name) for name in plan.tables if name not in made}
+        results = Run(out, shared)
         words = words_of(results)
     return {"words": words, "cpu_s": time.process_time() - began, "sources": source_digest()}
 
 
-def words_of(results: Results) -> dict[str, str]:
+def words_of(results: Run) -> dict[str, str]:
     """Return the word of every claim that the results decide, by its id."""
     return {one.id: str(one.word) for one in claims.judge_possible(results)[0]}
 
@@ -94,10 +96,10 @@ def at_other_gains() -> list[dict]:
     """Return the gains of each run of results/gains, and the words of the claims that its tables decide."""
     units, found = [one for one in plan_of(HALF_STEP).units if one.experiment == "traces"], []
     for path in sorted(GAINS.glob("*/episodes.parquet")):
-        gains = Results(path.parent).gains()
+        gains = Run(path.parent).gains()
         # results/gains has no traces: those that claims look at are made
-        traces = pd.concat([rows_of(Settings(gains=gains), one) for one in units], ignore_index=True)
-        found.append({**gains._asdict(), "words": words_of(Results(path.parent, {"traces": traces}))})
+        traces = pd.concat([rows_of(Request(gains=gains), one) for one in units], ignore_index=True)
+        found.append({**gains._asdict(), "words": words_of(Run(path.parent, {"traces": traces}))})
     return found
 
 

@@ -4,16 +4,16 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from bench.experiments.tables.run import shown_run
+
 FOLDER, CODE, LIVE = "laws", "laws/code", "pages/10-try-it"
 
 
 def collected(app: Any) -> Iterator[tuple[str, dict, str]]:
     """(name, context, template) of each page; the files that it offers are written beside it."""
-    from bench.experiments.tables import read
     from report.figures.cards import regulators
-    from report.figures.kit.page import run_in
 
-    run = run_in(read.folder())
+    run = shown_run()
     live = LIVE if LIVE in app.env.found_docs else ""
     every = [regulators.page(one, run, live) for one in regulators.every_law()]
     links = [{"link": f"{made.name}.html", "title": made.title} for made in every]

@@ -5,11 +5,12 @@ import re
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from bench.base.provenance import read_provenance
+from bench.base.errors import NoEvidence
+from bench.experiments.tables.run import Run, require_rows
 from bench.findings.answer import NOT_TESTED, Answer, find_answer
 from bench.findings.claims import tables
 from bench.findings.claims.places import EXACT_RAD
-from bench.findings.claims.verdict import NoEvidence, Word
+from bench.findings.claims.verdict import Word
 from bench.findings.conclusions import conclude
 from bench.findings.replication import compare_jacobians, measure_settling, starts_at_rest
 from bench.law.attribution import IN_WORDS
@@ -17,7 +18,7 @@ from report.figures.answer import which_law
 from report.figures.failures import failure_map
 from report.figures.kit import families, html
 from report.figures.kit.laws import LINEARIZED, MATRIX
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 from report.figures.kit.spelling import prose
 from report.figures.method.provenance import CITATION, cited
 from report.figures.replication.conclusions import SHORT, call_laws, count_statements, list_in_short
@@ -51,7 +52,7 @@ def list_authors() -> list[str]:
 
 def describe_edition(run: Run) -> str:
     """Return authors, date, version, and the commit and the suite that the results are of."""
-    found = read_provenance(run.folder, ("suite", "commit", "dirty", "finished"))
+    found = run.provenance("suite", "commit", "dirty", "finished")
     edition = cited()
     changed = " with changes" if found["dirty"] else ""
     commit = found["commit"][:8] or "unknown"
@@ -85,7 +86,7 @@ def describe_replication(run: Run) -> str:
 
 def describe_size(run: Run) -> str:
     """Say how much was simulated."""
-    found = read_provenance(run.folder, ("episodes", "trials", "troubled"))
+    found = run.provenance("episodes", "trials", "troubled")
     episodes = found["episodes"] + found["trials"] + found["troubled"]
     arms = run.rows("episodes", task="arm-regulation")["arm"].nunique()
     return (
@@ -108,7 +109,7 @@ def describe_half_turns(run: Run) -> str:
     """Say what the rotation-matrix regulator does at exact 180° rotations."""
     rows = starts_at_rest(run)
     is_exact = math.pi - rows["angle0_rad"] <= EXACT_RAD
-    exact = tables.some(rows[(rows["contender"] == MATRIX) & is_exact], "exact 180° rotation")
+    exact = require_rows(rows[(rows["contender"] == MATRIX) & is_exact], "exact 180° rotation")
     failed = int((~tables.settled(exact)).sum())
     if not failed:
         return f"The rotation-matrix regulator settles from all {len(exact)} starts exactly 180° from the goal."

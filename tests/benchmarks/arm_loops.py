@@ -8,7 +8,8 @@ from bench.engines import simulate_arms
 from bench.engines.arm_episode import blank_arm
 from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import compiled_loop
-from bench.experiments.experiment import Settings
+from bench.experiments.arm import on_real_motors
+from bench.experiments.request import Request
 from bench.experiments.suites import suite
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
@@ -17,7 +18,7 @@ from tasks.base import Start
 
 TASK = "arm-regulation"
 
-SETTINGS = Settings().limits(6.0)._replace(hold_ticks=NEVER)
+SETTINGS = Request().limits(6.0)._replace(hold_ticks=NEVER)
 """6000 ticks of 1 ms, some 20 ms of time: handing the loop its arguments takes 0.19 ms of them."""
 
 FEWEST_TICKS = 4000
@@ -26,9 +27,9 @@ FEWEST_TICKS = 4000
 
 def list_controllers(laws: list[Contender], arm: str) -> list[Contender]:
     """Return the default suite's controllers of these laws; a user's by the geometric Jacobian."""
-    on_arms = suite("default").on_arms
+    section = suite("default").sections["arm"]
     by_name = {law.name: law for law in laws}
-    words = [*on_arms.words, *on_arms.compared]
+    words = [*section["words"], *on_real_motors(section)]
     for law in laws:
         if law.regulator.origin:
             words.append(f"{law.name}@geometric+standard")

@@ -13,14 +13,14 @@ from bench.engines.mujoco_view import compiled_view
 from bench.engines.native.libmujoco import model_of
 from bench.engines.plants import free_body
 from bench.engines.simulate import compiled_loop, evaluation
-from bench.experiments.experiment import Settings
+from bench.experiments.request import Request
 from bench.law.contender import Contender
 from benchmarks.subject import NEVER, Episodes, Subject, time_episodes
 
 STARTS = {"ideal-held": 128, "ideal-rk4": 128, "native": 8}
 """Engines and their uniform starts; of the 3 to 20 ms of a call, 0.05 ms hand over arguments."""
 
-SETTINGS = Settings().limits(0.4)._replace(hold_ticks=NEVER)
+SETTINGS = Request().limits(0.4)._replace(hold_ticks=NEVER)
 """400 ticks of 1 ms: from rest through the fastest part of a response."""
 
 

@@ -8,7 +8,7 @@ from support.command_line import refused, refused_run
 
 import tasks
 from bench.experiments import plan as planning
-from bench.experiments.choice import INTEGRATORS, Choice
+from bench.experiments.request import INTEGRATORS, Request
 from bench.experiments.suites import ENGINES, SUITES
 from bench.experiments.tables.schema import RESULTS
 from bench.law.contenders.registry import contenders, find_contender
@@ -91,8 +91,12 @@ def test_contender_pasted_so_that_it_would_mean_more_is_refused_with_the_cure(ca
 
 
 def test_same_word_twice_is_the_word_once():
-    choices = [Choice(("free-body",) * count, ("paper",) * count, ("native",) * count) for count in (1, 2)]
-    once, twice = (planning.make("quick", [find_contender("rotation-matrix")], choice) for choice in choices)
+    choices = [
+        {"tasks": ("free-body",) * count, "start_sets": ("paper",) * count, "engines": ("native",) * count}
+        for count in (1, 2)
+    ]
+    law = find_contender("rotation-matrix")
+    once, twice = (planning.make(Request("quick", (law,), **choice)) for choice in choices)
     assert once == twice
 
 

@@ -12,7 +12,7 @@ from bench.base.provenance import ROOT
 from bench.cli import command_of, main
 from bench.cli.listing import KINDS, describe_arm
 from bench.experiments import plan as planning
-from bench.experiments.choice import Choice
+from bench.experiments.request import Request
 from bench.experiments.suites import SUITES
 from bench.experiments.tables import store
 from bench.law.contenders import combinations
@@ -162,7 +162,7 @@ def test_count_of_joints_alone_counts_the_quick_suites_controllers(capsys):
     said = bench(capsys, "count", "--joints", "6")
     rows = [line for line in said.out.splitlines() if " typical " in line]
     laws = [one for one in all_contenders() if not one.regulator.costing_only]
-    planned = {unit.contender for unit in planning.make("quick", laws, Choice(arms=("ur5e",))).of("arm")}
+    planned = {unit.contender for unit in planning.make(Request("quick", tuple(laws), arms=("ur5e",))).of("arm")}
     assert len(rows) == len(planned - {one.name for one in combinations.baselines(6)})
 
 

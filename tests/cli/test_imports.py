@@ -57,7 +57,7 @@ def test_command_imports_of_what_is_slow_what_it_needs(code, watched, needed, tm
 
 def test_plugin_of_pytest_imports_no_more_than_what_starts_an_audit():
     found = imported("import bench.audit.plugin; code = 0")
-    ours = {"", ".audit", ".audit.plugin", ".audit.apart", ".base", ".base.errors"}
+    ours = {"", ".audit", ".audit.plugin", ".audit.apart", ".base", ".base.errors", ".base.isolated", ".base.processes"}
     assert {one for one in found if one.startswith(("bench", "tasks", "numpy"))} == {f"bench{one}" for one in ours}
 
 

@@ -12,7 +12,7 @@ from bench.base.errors import BadResults, Incompatible, NoTable, UnknownWord
 from bench.base.provenance import ROOT
 from bench.cli.advise import Reply
 from bench.cli.notebook import Advised
-from bench.experiments.tables import read
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import all_tables
 
 REFERENCE = ROOT / "results" / "reference"
@@ -21,7 +21,7 @@ FLOOR = ROOT / "results" / "floor" / "floor.parquet"
 
 def test_rows_are_those_that_have_the_words():
     frame = bench.load("episodes", REFERENCE, engine="native", start_set="poles")
-    whole = read.table(REFERENCE, "episodes")
+    whole = Run(REFERENCE).table("episodes")
     assert len(frame) == ((whole["engine"] == "native") & (whole["start_set"] == "poles")).sum() > 0
     assert "contender" in frame
 
@@ -36,7 +36,7 @@ def test_every_column_has_its_unit_also_in_files_that_lack_them():
 
 def test_loading_leaves_what_others_read_as_it_is():
     bench.load("costs", REFERENCE)
-    assert read.table(REFERENCE, "costs").attrs == {}
+    assert Run(REFERENCE).table("costs").attrs == {}
 
 
 def test_pandas_reads_the_units_of_a_new_file(finished):

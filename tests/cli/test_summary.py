@@ -17,10 +17,10 @@ from bench.cli.options import REFERENCE
 from bench.cli.screen import frame_table
 from bench.cli.summary import answer, details, failures, laws, paper, today, whole
 from bench.cli.summary.parts import list_parts
-from bench.experiments.tables import read as results
+from bench.experiments.tables.run import VARIABLE, Run, choose_rows
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.answer import advise_gains, find_answer
-from bench.findings.claims import Results, all_claims
+from bench.findings.claims import all_claims
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.verdict import Evidence, Verdict, Word
 from bench.findings.selection.nearest import answer as answer_nearest
@@ -45,12 +45,12 @@ whole.print_summary(Path(sys.argv[1]), is_named=False)
 
 @pytest.fixture(scope="module")
 def tables():
-    return {name: results.table(REFERENCE, name) for name in ("episodes", "compliance", "robustness", "costs")}
+    return {name: Run(REFERENCE).table(name) for name in ("episodes", "compliance", "robustness", "costs")}
 
 
 @pytest.fixture(scope="module")
 def reference(tables):
-    return Results(REFERENCE, dict(tables))
+    return Run(REFERENCE, dict(tables))
 
 
 @pytest.fixture
@@ -159,7 +159,7 @@ def test_advice_for_gains_without_a_map_says_not_tested(tmp_path):
 
 def row(tables, law, **planted):
     """Return the lines of a law of the reference with planted tables."""
-    return " ".join(laws.format_row(laws.measure_law(Results(REFERENCE, {**tables, **planted}), law)))
+    return " ".join(laws.format_row(laws.measure_law(Run(REFERENCE, {**tables, **planted}), law)))
 
 
 def test_row_of_a_law_is_read_off_the_rows(tables):
@@ -188,14 +188,14 @@ def test_lines_on_jacobians_and_compliance_are_read_off_the_rows(tables):
     episodes, rows = tables["episodes"], tables["compliance"]
     geometric = episodes["contender"].astype(str).str.startswith("rotation-matrix@geometric")
     stuck = changed(episodes, geometric, outcome="stuck", peak_torque_ratio=2.0)
-    _, line, _ = paper.compare_jacobians(Results(REFERENCE, {**tables, "episodes": stuck}))
+    _, line, _ = paper.compare_jacobians(Run(REFERENCE, {**tables, "episodes": stuck}))
     assert re.search(r"geometric +16 of 16 moves +2 +807$", line)
     turned = changed(rows, rows["misalignment_rad"].notna(), misalignment_rad=0.5)
-    two, one = paper.compare_compliance(Results(REFERENCE, {**tables, "compliance": turned}))
+    two, one = paper.compare_compliance(Run(REFERENCE, {**tables, "compliance": turned}))
     assert two == "Euler, two axes: turns 29 deg off at beta = 60 deg (2 arms: 29-29)"
     assert one.startswith("Euler, one axis: right axis at 29 of 102 poses, 28 % ")
-    assert paper.compare_jacobians(Results(REFERENCE, {**tables, "episodes": episodes[episodes["arm"] == ""]})) == []
-    assert paper.compare_compliance(Results(REFERENCE, {**tables, "compliance": rows.iloc[:0]})) == []
+    assert paper.compare_jacobians(Run(REFERENCE, {**tables, "episodes": episodes[episodes["arm"] == ""]})) == []
+    assert paper.compare_compliance(Run(REFERENCE, {**tables, "compliance": rows.iloc[:0]})) == []
 
 
 def some_laws(tables, *names):
@@ -205,12 +205,12 @@ def some_laws(tables, *names):
         for name, frame in tables.items()
         if name != "compliance"
     }
-    return Results(REFERENCE, {**chosen, "compliance": tables["compliance"].iloc[:0]})
+    return Run(REFERENCE, {**chosen, "compliance": tables["compliance"].iloc[:0]})
 
 
 def test_run_of_some_laws_shows_them_beside_each_other_and_judges_nothing(capsys, tables, monkeypatch):
     run = some_laws(tables, "square-root", "mrp")
-    monkeypatch.setattr(whole, "Results", lambda folder: run)
+    monkeypatch.setattr(whole, "Run", lambda folder: run)
     monkeypatch.setattr(paper, "judge_possible", None)  # a call would fail
     whole.print_summary(REFERENCE, is_named=True)
     out = capsys.readouterr().out
@@ -227,7 +227,7 @@ def test_times_of_two_laws_are_compared_over_equal_starts(tables):
     episodes = tables["episodes"]
     twice = episodes[(episodes["contender"].astype(str) == "mrp") & (episodes["engine"] == "ideal-rk4")]
     twice = twice.assign(contender="mine", settling_time_s=2.0 * twice["settling_time_s"])
-    run = Results(REFERENCE, {**tables, "episodes": pd.concat([episodes, twice], ignore_index=True)})
+    run = Run(REFERENCE, {**tables, "episodes": pd.concat([episodes, twice], ignore_index=True)})
     assert whole.compare_pace(run, "mine", "mrp").startswith("mine takes 2.00 (2.00-2.00) times as long as mrp until")
     assert whole.compare_pace(run, "mine", "no-such-law") == ""
 
@@ -246,8 +246,8 @@ def test_run_of_one_part_shows_that_part_alone(capsys, tables, monkeypatch, part
         "contact": {"episodes": episodes.iloc[:0], **rows, "compliance": tables["compliance"]},
         "robustness": {"episodes": episodes.iloc[:0], **rows, "robustness": tables["robustness"]},
     }[part]
-    run = Results(REFERENCE, {**tables, **kept})
-    monkeypatch.setattr(whole, "Results", lambda folder: run)
+    run = Run(REFERENCE, {**tables, **kept})
+    monkeypatch.setattr(whole, "Run", lambda folder: run)
     monkeypatch.setattr(paper, "judge_possible", None)
     whole.print_summary(REFERENCE, is_named=True)
     out = capsys.readouterr().out
@@ -285,8 +285,8 @@ def test_summary_imports_no_statistics_of_scipy():
 
 
 def test_laws_of_a_run_without_arms_are_compared(tables):
-    episodes, compliance = results.chosen(tables["episodes"], {"arm": ""}), tables["compliance"].iloc[:0]
-    run = Results(REFERENCE, {**tables, "episodes": episodes, "compliance": compliance})
+    episodes, compliance = choose_rows(tables["episodes"], {"arm": ""}), tables["compliance"].iloc[:0]
+    run = Run(REFERENCE, {**tables, "episodes": episodes, "compliance": compliance})
     said = text(*answer.paragraphs(compare_free_body(run)))
     assert "In this run, 99 % of the uniform starts settle within 0.584 s with late-braking" in said
     assert "by our rule, the two laws tie. late-braking meets our requirements here." in said
@@ -310,7 +310,7 @@ def test_settled_counts_are_those_of_the_tables(tables, reference):
 def test_law_that_broke_is_named(tables):
     lost = tables["episodes"].head(3).assign(outcome=pd.Categorical(["crashed", "hung", "crashed"]))
     law = str(lost["contender"].iloc[0]).partition("@")[0]
-    said = text(failures.paragraph(Results(REFERENCE, {**tables, "episodes": lost})))
+    said = text(failures.paragraph(Run(REFERENCE, {**tables, "episodes": lost})))
     assert f"{law} crashed in 2 episodes and {law} hung in 1 episode" in said
 
 
@@ -331,7 +331,7 @@ def test_details_are_all_parts(capsys, reference):
 
 
 def test_part_without_a_folder_is_of_the_usual_run(capsys, monkeypatch):
-    monkeypatch.setenv(results.VARIABLE, str(REFERENCE))
+    monkeypatch.setenv(VARIABLE, str(REFERENCE))
     assert bench(capsys, "show", "contact") == bench(capsys, "show", REFERENCE, "contact")
 
 
@@ -358,7 +358,7 @@ def test_unknown_part_is_refused_with_the_parts(capsys, words):
 
 
 def test_names_stay_whole_where_the_table_is_wider_than_the_screen(capsys):
-    episodes = results.table(REFERENCE, "episodes")
+    episodes = Run(REFERENCE).table("episodes")
     for _, table in tables_of_arms(episodes[episodes["arm"] != ""]):
         Console(width=80, highlight=False, markup=False, emoji=False).print(frame_table(table))
     lines = capsys.readouterr().out.splitlines()

@@ -1,5 +1,6 @@
 """Contracts that every perturbation in tasks/conditions and every experiment keeps; new files are under them."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -14,8 +15,8 @@ from bench.engines.plants.hooks import check
 from bench.engines.plants.perturbed import steps_of
 from bench.engines.simulate_bodies import run_disturbed
 from bench.experiments import plan
-from bench.experiments.choice import Choice
 from bench.experiments.experiment import known_experiments
+from bench.experiments.request import KINDS, Request
 from bench.findings import perturbed
 from bench.law.contenders.registry import find_contender
 from tasks.axis import Axis, Field
@@ -193,24 +194,25 @@ NAMED = {
     "representations": "zyx-euler",
     "axes": "delay",
 }
-LAWS = [find_contender("rotation-matrix"), find_contender("linearized-euler/zyx-euler")]
+LAWS = (find_contender("rotation-matrix"), find_contender("linearized-euler/zyx-euler"))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", NAMED)
 def test_named_word_leaves_only_experiments_that_take_it(kind):
-    made = plan.make("quick", LAWS, Choice(**{kind: (NAMED[kind],)}))
+    made = plan.make(Request("quick", LAWS, **{kind: (NAMED[kind],)}))
     planned = {unit.experiment for unit in made.units}
     assert planned
     assert planned <= {one.name for one in known_experiments().values() if kind in one.takes}
 
 
-def test_every_word_of_a_choice_is_tried_here():
-    assert {*NAMED, "experiments"} == {*vars(Choice())}
+def test_every_kind_of_word_is_tried_here():
+    words = {field.name for field in dataclasses.fields(Request) if field.type == "tuple[str, ...]"}
+    assert {*NAMED} == {*KINDS} == words - {"experiments"}
 
 
 @pytest.mark.parametrize("one", known_experiments().values())
 def test_word_that_a_named_experiment_does_not_take_is_refused(one):
     for kind in NAMED.keys() - {*one.takes}:
         with pytest.raises(Incompatible, match=f"'{NAMED[kind]}' cannot narrow the experiment '{one.name}'"):
-            plan.make("quick", LAWS, Choice(**{kind: (NAMED[kind],)}, experiments=(one.name,)))
+            plan.make(Request("quick", LAWS, **{kind: (NAMED[kind],)}, experiments=(one.name,)))

@@ -9,7 +9,7 @@ from support.pages import RUN, assert_is_whole, paste_published
 from support.rendered import list_texts
 from support.wording import find_faults, find_head_faults
 
-from bench.experiments.tables import read
+from bench.experiments.tables.run import VARIABLE, choose_rows, run_in
 from report.figures.kit.laws import FEEDBACK
 from report.figures.kit.page import (
     ABSENT,
@@ -19,7 +19,6 @@ from report.figures.kit.page import (
     kinds_of,
     modules_of,
     pasted,
-    run_in,
     text_of,
 )
 from report.figures.responses import responses
@@ -46,13 +45,13 @@ def test_module_is_pasted_by_one_page_which_names_no_other_s_keys(name):
 
 @pytest.mark.parametrize("name", QUICK)
 def test_module_gives_and_draws_what_its_page_pastes_of_the_published_run(name, monkeypatch):
-    monkeypatch.setenv(read.VARIABLE, str(RUN.folder))
+    monkeypatch.setenv(VARIABLE, str(RUN.folder))
     assert_is_whole(paste_published(name))
 
 
 @pytest.mark.parametrize("path", READ, ids=lambda path: path.stem)
 def test_page_says_its_counts_in_words_and_with_their_nouns(path, monkeypatch):
-    monkeypatch.setenv(read.VARIABLE, str(RUN.folder))
+    monkeypatch.setenv(VARIABLE, str(RUN.folder))
     texts, tables = list_texts(path)
     assert texts
     assert not [(text.kind, fault, text.words) for text in texts for fault in find_faults(text.words)]
@@ -99,5 +98,5 @@ def test_page_takes_what_it_pastes_and_nothing_else():
 
 def test_response_bends_are_nothing_under_feedback_linearization():
     traces, _ = responses.drawn(RUN)
-    own = read.chosen(traces, {"start_id": "figure-2.5", "contender": FEEDBACK})
+    own = choose_rows(traces, {"start_id": "figure-2.5", "contender": FEEDBACK})
     assert responses.bend_deg(own, 100.0, 20.0).max() < 1e-6

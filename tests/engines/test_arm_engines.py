@@ -18,7 +18,7 @@ import tasks
 from bench.engines.arm_episode import POSE, drive
 from bench.engines.episode import OUTCOME
 from bench.engines.simulate_arms import run_arm as run
-from bench.experiments.choice import INTEGRATORS
+from bench.experiments.request import INTEGRATORS
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import contenders
 from tasks.kinematics import kinematics

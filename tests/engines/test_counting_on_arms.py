@@ -74,7 +74,7 @@ def test_every_controller_of_the_default_suite_can_be_counted():
     from bench.experiments.suites import SUITES
 
     for arm in on_arms.ARM_OF.values():
-        for one in combinations.on(SUITES["default"].on_arms.words, LAWS, tasks.arm(arm).joints):
+        for one in combinations.on(SUITES["default"].sections["arm"]["words"], LAWS, tasks.arm(arm).joints):
             total = cost_on_arm(one, arm).typical.of(TOTAL)
             assert total["mul"] > 200, one.name
 

@@ -11,19 +11,18 @@ from bench.base.errors import Incompatible, UnknownWord
 from bench.cli.details import robustness as details
 from bench.experiments import plan as planning
 from bench.experiments import robustness
-from bench.experiments.choice import EVERYTHING, Choice
-from bench.experiments.contact import DENSE, can_do, cut, poses_of
-from bench.experiments.experiment import Asked
+from bench.experiments.contact import DENSE, can_do, controllers_and_poses, cut, poses_of
+from bench.experiments.request import Request, integrators
 from bench.experiments.suites import BOUNDED, SUITES
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.run import with_contender
 from bench.experiments.tables.schema import table_of
 from bench.experiments.tables.store import read
 from bench.law.contenders.registry import all_contenders, find_contender
 from bench.law.control.registry import all_controllers, find_controller
 from bench.running import run as running
 
-LAW = [find_contender("rotation-matrix")]
-EVERY_LAW = [one for one in all_contenders() if not one.regulator.costing_only]
+LAW = (find_contender("rotation-matrix"),)
+EVERY_LAW = tuple(one for one in all_contenders() if not one.regulator.costing_only)
 TASKS = tasks.contact_names()
 ABLE = [arm for arm in tasks.arm_names() if can_do(tasks.contact_task("wrench-probe"), tasks.arm(arm))]
 EULER = "hybrid/zyx-euler+inverse"
@@ -31,8 +30,8 @@ DRY = ("run", "--dry-run", "--suite", "quick")
 
 
 def contacts(suite="quick", **words):
-    """The units in contact of a suite with these words of a choice, and the episodes beside them."""
-    plan = planning.make(suite, LAW, Choice(**words or {"experiments": ("contact", "free-body")}))
+    """The units in contact of a suite with these words of a request, and the episodes beside them."""
+    plan = planning.make(Request(suite, LAW, **words or {"experiments": ("contact", "free-body")}))
     return plan.of("contact"), plan.episodes("free-body", "arm")
 
 
@@ -44,16 +43,16 @@ def named(units, name):
 @pytest.mark.parametrize("suite", SUITES)
 def test_suite_sets_every_task_to_every_arm_that_can_do_it(suite):
     units, episodes = contacts(suite)
-    part = SUITES[suite].in_contact
+    section = SUITES[suite].sections["contact"]
     assert named(units, "task") == TASKS
     assert named(units, "arm") == ABLE
     for arm in map(tasks.arm, ABLE):
         mine = [unit for unit in units if unit.arm == arm.name]
-        words = part.on(arm.joints)[0] or [one.name for one in all_controllers()]
+        words = controllers_and_poses(section, arm.joints)[0] or [one.name for one in all_controllers()]
         assert {*named(mine, "contender")} == {*words}
         free = sum(not tasks.contact_task(name).touches(arm) for name in TASKS)
-        left_out = sum(find_controller(word).law in part.in_free_space for word in words)
-        touching = sum(word in part.in_touch for word in words)
+        left_out = sum(find_controller(word).law in section["in_free_space"] for word in words)
+        touching = sum(word in section["in_touch"] for word in words)
         expected = len(TASKS) * len(words) - (len(TASKS) - free) * left_out - free * touching
         assert len({(unit.task, unit.contender) for unit in mine}) == expected
     assert episodes > 0
@@ -61,7 +60,7 @@ def test_suite_sets_every_task_to_every_arm_that_can_do_it(suite):
 
 @pytest.mark.parametrize(("suite", "laws", "count"), [*((one, LAW, None) for one in SUITES), ("quick", EVERY_LAW, 7)])
 def test_units_cover_each_pose_and_start_once_and_have_keys_of_their_own(suite, laws, count):
-    plan = planning.make(suite, laws, count=count)
+    plan = planning.make(Request(suite, laws, count=count))
     assert len({unit.key for unit in plan.units}) == len(plan.units)
     reached: dict = {}
     for unit in plan.of("contact", "free-body", "arm"):
@@ -73,7 +72,8 @@ def test_units_cover_each_pose_and_start_once_and_have_keys_of_their_own(suite, 
         if place.experiment == "contact" and not count:
             task, arm = tasks.contact_task(place.task), tasks.arm(place.arm)
             every = len(poses_of(find_controller(place.contender), task, arm, place.selector == DENSE))
-            expected = min(every, SUITES[suite].in_contact.on(arm.joints)[1] or every)
+            _, most = controllers_and_poses(SUITES[suite].sections["contact"], arm.joints)
+            expected = min(every, most or every)
         assert found == expected
 
 
@@ -110,13 +110,14 @@ def test_impedance_is_set_what_differs_in_more_than_the_selection():
 
 def test_integrator_in_contact_is_implicit_unless_one_is_named():
     usual, both = (
-        planning.make("quick", LAW, Choice(arms=("ur5e",)), integrator=word).settings for word in (None, "rk4")
+        planning.make(Request("quick", LAW, arms=("ur5e",), **integrators(word))).request
+        for word in (None, "rk4")
     )
     assert (usual.integrator, usual.contact_integrator) == ("euler", "implicitfast")
     assert (both.integrator, both.contact_integrator) == ("rk4", "rk4")
 
 
-SUITES_OWN = list(SUITES["quick"].in_contact.controllers)
+SUITES_OWN = list(SUITES["quick"].sections["contact"]["controllers"])
 
 
 @pytest.mark.parametrize(
@@ -147,19 +148,19 @@ def test_dry_run_counts_trials_of_each_arm_and_task(capsys):
         assert f"contact, {arm}: wrench-probe 18 " in said.out
 
 
-TWO = [find_contender("rotation-matrix"), find_contender("hybrid")]
+TWO = (find_contender("rotation-matrix"), find_contender("hybrid"))
 
 
-def made(choice, laws=TWO, **words):
-    return planning.make("quick", laws, choice, **words)
+def made(laws=TWO, **options):
+    return planning.make(Request("quick", laws, **options))
 
 
 @pytest.mark.parametrize("suite", SUITES)
 def test_every_suite_perturbs_every_law_on_r_along_every_axis(suite):
-    found = robustness.units(Asked(SUITES[suite], tuple(EVERY_LAW), EVERYTHING))
+    found = robustness.units(Request(suite, EVERY_LAW))
     met = {(unit.contender, unit.selector) for unit in found}
     on_matrix = [one.name for one in EVERY_LAW if one.representation is None and not one.regulator.in_engine]
-    bounded = SUITES[suite].robustness.bounded
+    bounded = SUITES[suite].sections["robustness"]["bounded"]
     assert met >= {
         (name, axis)
         for name in on_matrix
@@ -172,25 +173,25 @@ def test_every_suite_perturbs_every_law_on_r_along_every_axis(suite):
 
 
 def test_a_named_axis_is_all_that_runs():
-    found = made(Choice(axes=("delay",)), count=3)
+    found = made(count=3, axes=("delay",))
     assert {(unit.experiment, unit.selector) for unit in found.units} == {("robustness", "delay")}
     assert found.episodes("robustness") == found.episodes() == 2 * 3 * len(tasks.axis("delay").levels)
 
 
 def test_words_that_an_axis_does_not_take_are_refused():
     with pytest.raises(Incompatible, match="takes both arms such as 'ur5e' and axes such as 'delay'"):
-        made(Choice(axes=("delay",), arms=("ur5e",)))
+        made(axes=("delay",), arms=("ur5e",))
     with pytest.raises(UnknownWord, match="did you mean 'delay'"):
-        made(Choice(axes=("dely",)))
+        made(axes=("dely",))
     with pytest.raises(Incompatible, match="laws of the free body"):
-        made(Choice(axes=("delay",)), laws=[find_contender("in-engine")])
+        made((find_contender("in-engine"),), axes=("delay",))
 
 
 @pytest.fixture(scope="module")
 def rows(tmp_path_factory) -> pd.DataFrame:
     out = tmp_path_factory.mktemp("perturbation")
-    laws = [find_contender(word) for word in ("rotation-matrix", "hybrid", "gibbs")]
-    running.run(made(Choice(axes=("delay", "half-turn-noise"), experiments=("robustness",)), laws, count=3), out)
+    laws = tuple(find_contender(word) for word in ("rotation-matrix", "hybrid", "gibbs"))
+    running.run(made(laws, count=3, axes=("delay", "half-turn-noise"), experiments=("robustness",)), out)
     return with_contender(read(out, "robustness"))
 
 

@@ -13,13 +13,12 @@ from support.command_line import TINY, bench, digest, refused, refused_run
 
 from bench.base import files
 from bench.base.errors import BadResults
-from bench.experiments.tables import read, store
+from bench.experiments.tables import store
+from bench.experiments.tables.run import VARIABLE, Run, shown_run
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.claims.tables import Results
-from bench.findings.selection.tables import tables_of
+from bench.findings.selection.tables import select_rows
 from bench.law.contenders.registry import contenders_of
 from report.figures.cards import regulators
-from report.figures.kit.page import run_in
 from report.figures.method import provenance as origin
 
 EVIL = """
@@ -66,13 +65,13 @@ def evil(renamed, tmp_path, marker, monkeypatch):
     folder = shutil.copytree(renamed, tmp_path / "evil")
     (folder / "laws").mkdir()
     (folder / "laws" / "evil_law.py").write_text(EVIL.format(marker=str(marker)))
-    monkeypatch.setenv(read.VARIABLE, str(folder))
+    monkeypatch.setenv(VARIABLE, str(folder))
     return folder
 
 
 def test_law_from_elsewhere_is_shown_as_text_and_not_run(evil, marker):
-    [own] = read.own_laws()
-    shown = regulators.page(contenders_of(own)[0], run_in(read.folder())).body
+    [own] = shown_run().user_laws()
+    shown = regulators.page(contenders_of(own)[0], shown_run()).body
     assert (own.name, own.law, marker.exists()) == ("evil-law", None, False)
     assert "was not run" in shown
     assert "interval of the share of uniform starts" in shown
@@ -87,7 +86,7 @@ def test_summary_of_their_results_runs_no_law_of_theirs(capsys, evil, marker):
 
 
 def test_answer_from_their_results_runs_no_law_of_theirs(evil, marker):
-    found = tables_of(Results(evil)).contenders
+    found = select_rows(Run(evil)).contenders
     assert "rotation-matrix" in found
     assert "evil-law" not in found
     assert not marker.exists()
@@ -96,12 +95,12 @@ def test_answer_from_their_results_runs_no_law_of_theirs(evil, marker):
 def test_law_runs_once_its_text_is_trusted_and_not_when_a_sign_changes(capsys, evil, marker):
     path = evil / "laws" / "evil_law.py"
     assert bench(capsys, "trust", path).code == 0
-    [own] = read.own_laws()
+    [own] = shown_run().user_laws()
     assert own.title == "Evil <b>law</b>"
     assert marker.exists()
     marker.unlink()
     path.write_text(path.read_text() + "#")
-    [own] = read.own_laws()
+    [own] = shown_run().user_laws()
     assert (own.title, marker.exists()) == ("evil-law", False)
 
 
@@ -113,14 +112,14 @@ def test_trust_in_a_file_that_is_not_there_is_refused(capsys, tmp_path):
 def test_law_file_of_an_odd_name_is_refused(evil, name):
     (evil / "laws" / name).write_text("")
     with pytest.raises(BadResults, match="named by a word"):
-        read.own_laws()
+        shown_run().user_laws()
 
 
 def test_law_that_leads_outside_is_refused(evil, tmp_path):
     (tmp_path / "secret").write_text("secret")
     (evil / "laws" / "secret.py").symlink_to(tmp_path / "secret")
     with pytest.raises(BadResults, match="it is a link"):
-        read.own_laws()
+        shown_run().user_laws()
 
 
 @pytest.mark.parametrize("name", ["episodes.parquet", "provenance.json"])
@@ -163,7 +162,7 @@ def test_column_of_another_kind_is_refused(theirs, values):
 def test_table_that_lacks_a_column_is_refused(theirs):
     pq.write_table(pq.read_table(theirs / "episodes.parquet").drop(["outcome"]), theirs / "episodes.parquet")
     with pytest.raises(BadResults, match="no column outcome as ours"):
-        read.table(theirs, "episodes")
+        Run(theirs).table("episodes")
 
 
 def test_plan_whose_names_lead_outside_is_refused_as_edited(capsys, theirs):
@@ -192,7 +191,7 @@ def test_json_of_absurd_size_is_not_read(tmp_path):
 
 def test_file_that_is_no_table_of_ours_is_not_offered(evil):
     (evil / "<img src=x onerror=alert(1)>.parquet").write_bytes((evil / "costs.parquet").read_bytes())
-    assert not any("img" in path.name for path in origin.list_files(run_in(read.folder())))
+    assert not any("img" in path.name for path in origin.list_files(shown_run()))
 
 
 WRONG = {"suite": ["quick"], "cpu": "x" * 1000, "episodes": "many", "dirty": 1, "wall_s": None, "arithmetic": {"a": []}}

@@ -8,13 +8,12 @@ from bs4 import BeautifulSoup
 from docutils.core import publish_string
 from myst_parser.parsers.docutils_ import Parser
 
-from bench.experiments.tables import read
+from bench.experiments.tables.run import shown_run
 from bench.experiments.tables.schema import RESULTS
 from bench.law.contenders.registry import contenders_of
 from bench.law.kinds import Law
 from report.figures.cards import regulators
 from report.figures.kit import html
-from report.figures.kit.page import run_in
 from report.figures.method import provenance as origin
 
 ENABLED = ["amsmath", "attrs_block", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
@@ -83,7 +82,7 @@ def nasty(text: str) -> Law:
 def test_card_of_a_law_shows_its_words_and_takes_none_for_its_own(text):
     regulator = nasty(text)
     shown, usual = (
-        parsed(regulators.card(contenders_of(one)[0], run_in(read.folder()))) for one in (regulator, nasty("word"))
+        parsed(regulators.card(contenders_of(one)[0], shown_run())) for one in (regulator, nasty("word"))
     )
     assert elements(shown) == elements(usual)
     assert as_read(text) in as_read(shown.get_text())

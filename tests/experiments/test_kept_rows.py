@@ -12,11 +12,11 @@ from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.simulate import run
 from bench.experiments import plan as planning
 from bench.experiments import starts, traces
-from bench.experiments.choice import Choice
 from bench.experiments.costs import count_operations
 from bench.experiments.episode_rows import judged_columns
-from bench.experiments.experiment import Settings, rows_of
+from bench.experiments.experiment import rows_of
 from bench.experiments.kept_rows import kept
+from bench.experiments.request import Request
 from bench.experiments.rounding import NUDGE, OUTCOME_NUDGED, ROUNDING_CHANGE, nudged, rerun_nudged
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import find_contender
@@ -85,7 +85,7 @@ HOLD_TICKS = RULES.hold_ticks(1e-3)
 
 @pytest.fixture(scope="module")
 def curves():
-    return traces.rows(Settings(), traces.of_law(find_contender(PAPERS), 5))
+    return traces.rows(Request(), traces.of_law(find_contender(PAPERS), 5))
 
 
 def rerun(law, start_set, start_id):
@@ -100,7 +100,9 @@ def test_suite_follows_the_papers_laws_and_a_users(tmp_path):
     (tmp_path / "mine.py").write_text(law_text(DAMPER))
     names = (PAPERS, "quaternion-unwinding", "feedback-linearized/mrp")
     chosen = [*map(find_contender, names), find_contender("mine", (load_law(tmp_path / "mine.py"),))]
-    followed = {unit.contender for unit in planning.make("quick", chosen, Choice(experiments=("traces",))).units}
+    followed = {
+        unit.contender for unit in planning.make(Request("quick", tuple(chosen), experiments=("traces",))).units
+    }
     assert followed == {PAPERS, "mine"}
 
 
@@ -166,13 +168,20 @@ def test_change_is_the_relative_one_of_numbers_above_rounding(first, beside, cha
 
 def test_run_marks_what_passes_a_singularity_and_nothing_in_the_clear():
     plan = planning.make(
-        "quick",
-        [find_contender("rotation-matrix")],
-        Choice(("arm-regulation",), ("clear", "wrist"), ("native",), ("ur5e",), ("geometric",), ("solve",)),
-        count=8,
-        horizon_s=3.0,
+        Request(
+            "quick",
+            (find_contender("rotation-matrix"),),
+            tasks=("arm-regulation",),
+            start_sets=("clear", "wrist"),
+            engines=("native",),
+            arms=("ur5e",),
+            jacobians=("geometric",),
+            inverses=("solve",),
+            count=8,
+            horizon_s=3.0,
+        )
     )
-    found = pd.concat([rows_of(plan.settings, unit) for unit in plan.of("arm")])
+    found = pd.concat([rows_of(plan.request, unit) for unit in plan.of("arm")])
     doubtful = found[ROUNDING_CHANGE].notna()
     assert not doubtful[found["start_set"] == "clear"].any()
     assert doubtful[found["start_set"] == "wrist"].any()

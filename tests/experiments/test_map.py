@@ -23,7 +23,7 @@ LAW = find_contender("rotation-matrix")
 
 def part_of(plan, first, count):
     [unit] = plan.units
-    return rows_of(plan.settings, dataclasses.replace(unit, first=first, count=count))
+    return rows_of(plan.request, dataclasses.replace(unit, first=first, count=count))
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +34,7 @@ def plan():
 
 @pytest.fixture(scope="module")
 def whole(plan):
-    return rows_of(plan.settings, plan.units[0])
+    return rows_of(plan.request, plan.units[0])
 
 
 def test_every_start_is_in_one_cell(plan, whole):

@@ -1,6 +1,5 @@
 """Plans of arms: every compatible combination has one, every other is refused with the reason; a user's law too."""
 
-import dataclasses
 import hashlib
 
 import pytest
@@ -11,13 +10,14 @@ from support.user_law import spring_text
 import tasks
 from bench.base.errors import Incompatible
 from bench.experiments import plan as planning
-from bench.experiments.choice import Choice
+from bench.experiments.request import Request
 from bench.experiments.suites import BY_WORD_ALONE, IDEAL_MOTORS, NOMINAL, SLOW, SUITES
 from bench.law.contender import refusal
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import contenders, find_contender
 from bench.law.inputs import Gains
 
+EVERY_LAW = tuple(LAWS.values())
 ON_BOTH = ("ur5e", "panda")  # six joints and seven: nothing else of an arm decides what goes together
 SHORT = ("run", "--dry-run", "--suite", "quick", "--task", "arm-regulation", "--starts", "clear", "--count", "2")
 
@@ -42,28 +42,37 @@ def crossed():
 def test_plan_of_a_named_combination_is_that_one_alone_or_refused_with_its_reason(arm):
     planned = 0
     for one, law, by, through in crossed():
-        choice = Choice(("arm-regulation",), ("clear",), (), (arm,), (by,), (through,))
+        request = Request(
+            "quick",
+            (law,),
+            count=2,
+            tasks=("arm-regulation",),
+            start_sets=("clear",),
+            arms=(arm,),
+            jacobians=(by,),
+            inverses=(through,),
+        )
         reason = refusal(one, tasks.arm(arm).joints)
         if not reason:
-            plan = planning.make("quick", [law], choice, count=2)
+            plan = planning.make(request)
             assert [one.name for one in plan.contenders] == [f"{law.name}@{by}+{through}"]
             assert {(unit.arm, unit.selector, unit.variation) for unit in plan.of("arm")} == {(arm, "clear", NOMINAL)}
             planned += 1
         else:
             with pytest.raises(Incompatible) as refused_with:
-                planning.make("quick", [law], choice, count=2)
+                planning.make(request)
             assert reason in str(refused_with.value)
             assert "try:" in str(refused_with.value) or "use " in str(refused_with.value)
     assert planned == len(combinations.chosen((), LAWS, tasks.arm(arm).joints))
 
 
 def test_arm_alone_is_the_suite_on_that_arm():
-    laws = list(LAWS.values())
-    plan = planning.make("default", laws, Choice(arms=("puma560",)))
+    plan = planning.make(Request("default", EVERY_LAW, arms=("puma560",)))
     assert {unit.arm for unit in plan.units if unit.arm} == {"puma560"}
     ideal = {unit.contender for unit in plan.of("arm") if unit.variation == IDEAL_MOTORS}
-    on_arms = SUITES["default"].on_arms
-    by_words = combinations.chosen((*on_arms.words, *on_arms.operational), LAWS, 6, by_word_alone=BY_WORD_ALONE)
+    section = SUITES["default"].sections["arm"]
+    words = (*section["words"], *section["operational"]["words"])
+    by_words = combinations.chosen(words, LAWS, 6, by_word_alone=BY_WORD_ALONE)
     assert ideal == {one.name for one in (*by_words, *combinations.baselines(6))}
     assert {unit.selector for unit in plan.of("arm") if unit.variation == IDEAL_MOTORS} == set(
         tasks.task("arm-regulation", "puma560").start_sets
@@ -71,14 +80,14 @@ def test_arm_alone_is_the_suite_on_that_arm():
 
 
 def test_default_suite_varies_the_model_on_every_arm():
-    plan = planning.make("default", list(LAWS.values()))
+    plan = planning.make(Request("default", EVERY_LAW))
     varied = {(unit.arm, unit.variation) for unit in plan.of("arm")}
     assert varied == {(arm, word) for arm in ARMS for word in tasks.variation_names(arm)}
 
 
 @pytest.mark.parametrize("suite", ["quick", "default"])
 def test_compared_laws_run_on_every_arm_as_it_is_with_three_levels_of_gains(suite):
-    plan = planning.make(suite, list(LAWS.values()))
+    plan = planning.make(Request(suite, EVERY_LAW))
     for arm in map(tasks.arm, ARMS):
         units = [unit for unit in plan.of("arm") if unit.arm == arm.name and unit.variation == NOMINAL]
         by_gains = {}
@@ -92,13 +101,13 @@ def test_compared_laws_run_on_every_arm_as_it_is_with_three_levels_of_gains(suit
 
 @pytest.mark.parametrize("kp", [25.0, 100.0, 150.0])
 def test_no_episode_is_planned_twice_whatever_the_gains(kp):
-    units = planning.make("quick", [LAWS["mrp"]], Choice(arms=("ur5e",)), gains=Gains(kp, 20.0)).of("arm")
+    units = planning.make(Request("quick", (LAWS["mrp"],), arms=("ur5e",), gains=Gains(kp, 20.0))).of("arm")
     keys = [(one.contender, one.selector, one.variation, one.kp or kp, one.first) for one in units]
     assert len(set(keys)) == len(keys)
 
 
 def test_full_suite_runs_every_compatible_combination():
-    plan = planning.make("full", list(LAWS.values()), Choice(arms=ON_BOTH), count=1)
+    plan = planning.make(Request("full", EVERY_LAW, arms=ON_BOTH, count=1))
     for arm in ON_BOTH:
         planned = {unit.contender for unit in plan.of("arm") if unit.arm == arm and unit.variation == IDEAL_MOTORS}
         beside = combinations.baselines(tasks.arm(arm).joints)
@@ -106,12 +115,11 @@ def test_full_suite_runs_every_compatible_combination():
 
 
 def test_baselines_are_run_where_the_goals_joints_are_known_and_no_law_is_named():
-    laws = list(LAWS.values())
-    plan = planning.make("default", laws, Choice(arms=("ur5e",)))
+    plan = planning.make(Request("default", EVERY_LAW, arms=("ur5e",)))
     names = {one.name for one in combinations.baselines(6)}
     assert {unit.selector for unit in plan.of("arm") if unit.contender in names} == {"reach", "uniform"}
-    for choice in (Choice(regulators=("hybrid",)), Choice(inverses=("solve",)), Choice(variations=("mass-1.30",))):
-        found = planning.make("default", [LAWS["hybrid"]], dataclasses.replace(choice, arms=("ur5e",))).of("arm")
+    for words in ({"regulators": ("hybrid",)}, {"inverses": ("solve",)}, {"variations": ("mass-1.30",)}):
+        found = planning.make(Request("default", (LAWS["hybrid"],), arms=("ur5e",), **words)).of("arm")
         assert found
         assert names.isdisjoint(unit.contender for unit in found)
 
@@ -119,13 +127,13 @@ def test_baselines_are_run_where_the_goals_joints_are_known_and_no_law_is_named(
 @pytest.mark.parametrize("arm", ON_BOTH)
 def test_inverses_and_twins_are_run_where_they_differ_and_all_else_from_every_set(arm):
     """On seven joints the pseudo-inverse is both the standard and one of the inverses."""
-    part, joints = SUITES["default"].on_arms, tasks.arm(arm).joints
-    usual = {
-        one.name for one in combinations.on(tuple(word for word in part.words if word not in part.few), LAWS, joints)
-    }
-    few = {one.name for one in combinations.on(part.few, LAWS, joints)} - usual
+    section, joints = SUITES["default"].sections["arm"], tasks.arm(arm).joints
+    at_few_starts = section["at_few_starts"]
+    others = tuple(word for word in section["words"] if word not in at_few_starts)
+    usual = {one.name for one in combinations.on(others, LAWS, joints)}
+    few = {one.name for one in combinations.on(at_few_starts, LAWS, joints)} - usual
     for sets, expected in (((), {"wrist", "uniform"}), (("clear",), {"clear"})):
-        plan = planning.make("default", list(LAWS.values()), Choice(arms=(arm,), start_sets=sets))
+        plan = planning.make(Request("default", EVERY_LAW, arms=(arm,), start_sets=sets))
         usually = [unit for unit in plan.of("arm") if unit.variation == (NOMINAL if sets else IDEAL_MOTORS)]
         for name in few:
             assert {unit.selector for unit in usually if unit.contender == name} == expected
@@ -135,10 +143,10 @@ def test_inverses_and_twins_are_run_where_they_differ_and_all_else_from_every_se
             )
 
 
-@pytest.mark.parametrize("choice", [Choice(arms=("ur5e",)), Choice(tasks=("wrench-probe",), arms=("ur5e",))])
-def test_plan_knows_an_arms_model(choice):
+@pytest.mark.parametrize("words", [{"arms": ("ur5e",)}, {"tasks": ("wrench-probe",), "arms": ("ur5e",)}])
+def test_plan_knows_an_arms_model(words):
     """A results folder of another arm of the same name is not gone on with."""
-    plan = planning.make("quick", [find_contender("rotation-matrix")], choice, count=1)
+    plan = planning.make(Request("quick", (find_contender("rotation-matrix"),), count=1, **words))
     digest = hashlib.sha256(tasks.arm("ur5e").xml.encode()).hexdigest()
     assert plan.identity()["arms"] == {"ur5e": digest[:16]}
 
@@ -155,7 +163,7 @@ def test_suite_runs_a_law_on_arms_that_none_of_its_words_names(suite):
     laws = list(LAWS.values())
     new = laws[0]._replace(regulator=laws[0].regulator._replace(name="new"))
     usual, more = (
-        {unit.contender for unit in planning.make(suite, some, Choice(arms=("ur5e",))).of("arm")}
+        {unit.contender for unit in planning.make(Request(suite, tuple(some), arms=("ur5e",))).of("arm")}
         for some in (laws, [*laws, new])
     )
     assert more - usual == {"new@geometric+solve"}

@@ -13,8 +13,8 @@ from support.buffers import state_of
 import tasks
 from bench.experiments import jacobians as poses
 from bench.experiments import plan
-from bench.experiments.experiment import Settings
 from bench.experiments.jacobians import pose_sets
+from bench.experiments.request import Request
 from bench.experiments.tables import schema
 from bench.law.contenders.registry import contenders, find_contender
 from bench.regression import rows as compare
@@ -29,7 +29,7 @@ COUNT, SEED = 30, 7
 @pytest.fixture(scope="module")
 def frames():
     """The rows of two arms with few poses."""
-    return {name: poses.rows(Settings(seed=SEED), poses.of_arm(name, COUNT)) for name in ARMS}
+    return {name: poses.rows(Request(seed=SEED), poses.of_arm(name, COUNT)) for name in ARMS}
 
 
 def of_zyx(frame, *sets):
@@ -146,7 +146,7 @@ def test_random_poses_are_in_range_and_the_first_of_more(frames):
     q = rows[[f"q_{i + 1}" for i in range(6)]].to_numpy()
     assert len(q) == COUNT
     assert ((q >= arm.lower) & (q <= arm.upper)).all()
-    more = of_zyx(poses.rows(Settings(seed=SEED), poses.of_arm("puma560", 2 * COUNT)), "random")
+    more = of_zyx(poses.rows(Request(seed=SEED), poses.of_arm("puma560", 2 * COUNT)), "random")
     assert np.array_equal(more[[f"q_{i + 1}" for i in range(6)]].to_numpy()[:COUNT], q)
 
 
@@ -171,7 +171,7 @@ def test_conditions_are_numpys_and_infinite_where_nothing_is_finite():
 
 def jacobians_of(**words):
     law = [find_contender("rotation-matrix")]
-    return plan.make("quick", law, plan.Choice(**words)).of("jacobians")
+    return plan.make(Request("quick", tuple(law), **words)).of("jacobians")
 
 
 def test_run_has_the_arms_of_its_plan():

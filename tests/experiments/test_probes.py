@@ -7,10 +7,9 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench.experiments.choice import EVERYTHING
-from bench.experiments.experiment import Asked, Settings, Unit, known_experiments, rows_of
+from bench.experiments.experiment import Unit, known_experiments, rows_of
 from bench.experiments.probes import PROBES, arms, commands, coordinates, turns, units, variables
-from bench.experiments.suites import suite
+from bench.experiments.request import Request
 from bench.findings.claims.euler_jacobian import DIFFERENCED, EPS
 from bench.findings.theory import closed_form
 from bench.law.contenders.registry import all_contenders, representation
@@ -23,7 +22,7 @@ ZYX = representation("zyx-euler")
 
 def test_quarter_turns_about_two_axes_and_back_are_a_third_of_a_turn():
     # a rotation of the cube about its diagonal
-    loops = [one for one in variables.measure_ways(Settings(), None) if one.measure == "left_after_loop_rad"]
+    loops = [one for one in variables.measure_ways(Request(), None) if one.measure == "left_after_loop_rad"]
     assert loops[-1].at == math.pi / 2
     assert loops[-1].value == pytest.approx(2 * math.pi / 3, abs=1e-12)
 
@@ -32,7 +31,7 @@ def test_small_rotations_settle_as_expected_and_large_ones_do_not():
     linear = closed_form.linear_settling(*Gains())
     off = []
     for angle in (0.001, 1.2):
-        turned = turns.measure_turns(Settings(), turns.LINEARIZED, axes(16), Gains(), angle)
+        turned = turns.measure_turns(Request(), turns.LINEARIZED, axes(16), Gains(), angle)
         off.append(max(abs(one.value / linear - 1) for one in turned))
     assert off[0] < 2e-3
     assert off[1] > 0.05
@@ -85,7 +84,7 @@ def test_linear_response_is_that_of_the_closed_form():
 
 def test_curves_of_an_arm_bend_by_the_integration_error_alone():
     name = f"{arms.BY_EULER}+solve"
-    full, half = (arms.curves(name, "ur5e", Settings(), dt, 2) for dt in (1e-3, 5e-4))
+    full, half = (arms.curves(name, "ur5e", Request(), dt, 2) for dt in (1e-3, 5e-4))
     assert arms.largest(half) / arms.largest(full) == pytest.approx(0.5, abs=0.01)
     assert full["start_id"].nunique() == 2
     assert full.groupby("start_id")["time_s"].min().max() == 0.0
@@ -93,12 +92,12 @@ def test_curves_of_an_arm_bend_by_the_integration_error_alone():
 
 def test_curves_of_a_law_that_is_not_linear_in_the_angles_bend_at_any_step():
     name = f"{arms.ON_MATRIX}+solve"
-    full, half = (arms.curves(name, "ur5e", Settings(), dt, 2) for dt in (1e-3, 5e-4))
+    full, half = (arms.curves(name, "ur5e", Request(), dt, 2) for dt in (1e-3, 5e-4))
     assert arms.largest(half) > 0.9 * arms.largest(full) > 0.01
 
 
 def test_episodes_beside_poles_start_within_a_hundredth_and_end_at_a_tenth_of_a_radian():
-    found = arms.episodes_at_poles(f"{arms.ON_MATRIX}+solve", "ur5e", Settings())
+    found = arms.episodes_at_poles(f"{arms.ON_MATRIX}+solve", "ur5e", Request())
     assert len(found) == 8 * 12
     assert (found["outcome"] == "settled").all()
     exact = found[found["start_id"].astype(str).str.endswith("exact")]
@@ -128,7 +127,7 @@ def somewhere(count):
 
 
 def test_work_balances_at_random_and_polar_orientations():
-    rows = rows_of(Settings(), Unit("probes", selector="work"))
+    rows = rows_of(Request(), Unit("probes", selector="work"))
     found = rows[rows["representation"] == "zyx-euler"]
     place = found.loc[found["measure"] == "exists", "case"].str.partition("-")[0]
     assert place.value_counts().to_dict() == {"random": 2000, "near": 2 * 20 * 12, "exact": 2 * 20}
@@ -181,7 +180,7 @@ def test_random_orientations_are_uniform():
 
 def plan(gains=PAPERS_GAINS):
     laws = tuple(one for one in all_contenders() if not one.regulator.costing_only)
-    return units(Asked(suite("quick"), laws, EVERYTHING, gains=gains))
+    return units(Request("quick", laws, gains))
 
 
 def test_every_probe_is_planned_once_and_on_each_of_its_arms():
@@ -199,6 +198,6 @@ def test_probes_of_the_sliding_law_are_left_out_where_the_gains_have_no_real_pol
 @pytest.mark.parametrize("name", [name for name, probe in PROBES.items() if probe.cost_s < 1.0])
 def test_no_two_numbers_of_a_probe_have_one_key(name):
     [unit] = [one for one in plan() if one.selector == name][:1]
-    rows = rows_of(Settings(), unit)
+    rows = rows_of(Request(), unit)
     assert len(rows)
     assert not rows.duplicated([one for one in known_experiments()["probes"].table.key if one in rows]).any()

@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from bench.experiments import shipped as measured
-from bench.experiments.experiment import Settings
+from bench.experiments.request import Request
 from bench.experiments.shipped import compare
 from bench.law import kernel
 from bench.law.contenders.registry import contenders
@@ -23,7 +23,7 @@ HORIZON_S = 20.0
 @functools.cache
 def rows() -> pd.DataFrame:
     """All of the controllers, without laws of ours."""
-    made = [row for one in contenders("shipped").values() for row in compare(one, (), Settings(), HORIZON_S)]
+    made = [row for one in contenders("shipped").values() for row in compare(one, (), Request(), HORIZON_S)]
     return pd.DataFrame(made).set_index("shipped")
 
 
@@ -101,7 +101,7 @@ def test_error_without_a_sign_is_found_to_unwind_from_the_antipode():
     one = contenders("shipped")["franka-ros"]
     law = one.law._replace(name="no-sign", law=law_of(bare))
     one = dataclasses.replace(one, law=law, error=bare)
-    [found] = compare(one, (), Settings(), HORIZON_S)
+    [found] = compare(one, (), Request(), HORIZON_S)
     assert found["away"] > 0
     assert "double-cover" in found["findings"] or "long-way" in found["findings"]
 

@@ -13,8 +13,9 @@ from support.states import directions
 import tasks
 from bench.engines.simulate_bodies import run_compensated, run_stream
 from bench.experiments.compensators import BAND_RAD, DISTURBANCES, law_of
-from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.experiment import Unit, rows_of
 from bench.experiments.limiters import LIMITERS
+from bench.experiments.request import Request
 from bench.experiments.suites import STREAMED
 from bench.law.contenders.registry import contenders, find_contender
 from bench.law.inputs import PAPERS_GAINS, Gains
@@ -26,7 +27,7 @@ AXIS, RATE, DT = (0.0, 0.0, 1.0), 0.5, 1e-3
 
 @functools.cache
 def of_streams():
-    return rows_of(Settings("quick"), Unit("goal-streams", count=1, total=1)).set_index(["stream", "law"])
+    return rows_of(Request("quick"), Unit("goal-streams", count=1, total=1)).set_index(["stream", "law"])
 
 
 def test_body_behind_a_turning_goal_lags_as_the_linear_loop():
@@ -107,7 +108,7 @@ def test_end_of_an_episode_is_scipys(name):
 
 @functools.cache
 def of_compensator(name):
-    return rows_of(Settings(), Unit("compensators", selector=name, count=8, total=8, horizon_s=8.0))
+    return rows_of(Request(), Unit("compensators", selector=name, count=8, total=8, horizon_s=8.0))
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -7,7 +7,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from bench.experiments import springs
-from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.experiment import Unit, rows_of
+from bench.experiments.request import Request
 from bench.law.contenders.registry import contenders
 
 SPRINGS = contenders("springs")
@@ -20,7 +21,7 @@ TURNS = [one for one in Rotation.random(100, rng=DRAWN) if one.magnitude() < 3.0
 
 @functools.cache
 def rows():
-    return rows_of(Settings("quick"), Unit("springs", count=1, total=1)).set_index(["spring", "frame"])
+    return rows_of(Request("quick"), Unit("springs", count=1, total=1)).set_index(["spring", "frame"])
 
 
 def asked(turn):

@@ -16,8 +16,9 @@ from scipy.stats import binom
 from bench.base.errors import BadResults
 from bench.cli.details import contact
 from bench.cli.details.episodes import outcome_table, summarize_laws, tabulate
-from bench.experiments.tables import read, statistics
+from bench.experiments.tables import statistics
 from bench.experiments.tables.data_package import described_folder
+from bench.experiments.tables.run import FREE_BODY, choose_rows, with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.law.control.registry import find_controller
 
@@ -36,12 +37,12 @@ NAMES = ["rotation-matrix", "feedback-linearized/mrp", "feedback-linearized/zyx-
 
 
 def test_contender_is_the_word_of_the_command_line_and_in_a_table_of_times_the_law():
-    assert list(read.with_contender(LAWS)["contender"]) == NAMES
-    assert list(read.with_contender(LAWS[["regulator", "representation"]])["contender"])[2] == NAMES[2].split("@")[0]
+    assert list(with_contender(LAWS)["contender"]) == NAMES
+    assert list(with_contender(LAWS[["regulator", "representation"]])["contender"])[2] == NAMES[2].split("@")[0]
 
 
 def test_free_body_has_no_jacobian():
-    assert list(read.chosen(LAWS, read.FREE_BODY)["regulator"]) == ["rotation-matrix", "feedback-linearized"]
+    assert list(choose_rows(LAWS, FREE_BODY)["regulator"]) == ["rotation-matrix", "feedback-linearized"]
 
 
 def test_summary_and_outcomes_keep_a_law_on_an_arm_apart():
@@ -67,7 +68,7 @@ CONTROLLERS = ["hybrid-base+inverse", "hybrid/zyx-euler+projected", "impedance-g
 
 
 def test_contender_in_contact_is_the_word_of_the_command_line():
-    names = read.with_contender(IN_CONTACT)["contender"]
+    names = with_contender(IN_CONTACT)["contender"]
     assert list(names.drop_duplicates()) == CONTROLLERS
     assert [find_controller(name).name for name in CONTROLLERS] == CONTROLLERS
 

@@ -9,11 +9,11 @@ import pytest
 from support.advised import velocities
 from support.user_law import spring_text
 
-from bench.experiments.experiment import Settings, Unit, rows_of
-from bench.experiments.tables.read import with_contender
+from bench.base.errors import NoEvidence
+from bench.experiments.experiment import Unit, rows_of
+from bench.experiments.request import Request
+from bench.experiments.tables.run import Run, with_contender
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.claims.tables import Results
-from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.jump import jump
 from bench.findings.selection.pairs import compare_shares, compare_times
 from bench.findings.selection.regions import FACTS, Facts, decide, find_facts
@@ -141,8 +141,8 @@ def test_share_of_a_law_is_its_time_over_the_median_whole_controller():
         *(whole | {"arm": arm, "ratio": ratio} for arm, ratio in zip("abc", (40.0, 50.0, 90.0), strict=True)),
         whole | {"regulator": "mrp", "arm": "a", "ratio": 1000.0},
     ]
-    assert ticks(Results(None, {"timings": pd.DataFrame(rows)})) == {"mrp": 2.0}
-    assert ticks(Results(None, {"timings": pd.DataFrame(rows[:2])})) == {}
+    assert ticks(Run(None, {"timings": pd.DataFrame(rows)})) == {"mrp": 2.0}
+    assert ticks(Run(None, {"timings": pd.DataFrame(rows[:2])})) == {}
 
 
 def test_names_that_are_many_are_counted():
@@ -183,7 +183,7 @@ FASTEST = "mrp"
 
 @functools.cache
 def lagging():
-    settings, laws = Settings("quick"), ("rotation-vector", FASTEST)
+    settings, laws = Request("quick"), ("rotation-vector", FASTEST)
     units = [Unit("velocity", law, "free-body", count=24, horizon_s=2.5) for law in laws]
     units += [
         Unit("velocity", f"{law}@geometric+solve", "arm-regulation", "ur5e", count=2, horizon_s=2.5) for law in laws
@@ -192,7 +192,7 @@ def lagging():
 
 
 def test_position_is_judged_by_servos_that_lag():
-    compared = compare_positions(Results(REFERENCE, {"velocity": lagging()}))
+    compared = compare_positions(Run(REFERENCE, {"velocity": lagging()}))
     rows = lagging()
     late = rows[(rows["lag_s"] > 0.0) & rows["contender"].astype(str).str.startswith(FASTEST)]
     assert compared.row(FASTEST)["time"] == late["settling_time_s"].max()
@@ -219,15 +219,15 @@ def test_law_that_is_dead_and_law_that_unwinds_are_not_eligible():
 
 def test_run_that_commands_no_robot_by_velocities_is_no_evidence(tmp_path):
     with pytest.raises(NoEvidence, match="commanded by velocities"):
-        compare_velocities(Results(tmp_path))
-    rows = Results(REFERENCE).table("velocity")
+        compare_velocities(Run(tmp_path))
+    rows = Run(REFERENCE).table("velocity")
     with pytest.raises(NoEvidence, match="commanded by velocities"):
-        compare_velocities(Results(REFERENCE, {"velocity": rows.iloc[:0]}))
+        compare_velocities(Run(REFERENCE, {"velocity": rows.iloc[:0]}))
     with pytest.raises(NoEvidence, match="servos that lag"):
-        compare_positions(Results(REFERENCE, {"velocity": rows[rows["lag_s"] == 0.0]}))
+        compare_positions(Run(REFERENCE, {"velocity": rows[rows["lag_s"] == 0.0]}))
 
 
 def test_run_without_arms_is_no_evidence_for_them():
-    episodes = Results(REFERENCE).table("episodes")
+    episodes = Run(REFERENCE).table("episodes")
     with pytest.raises(NoEvidence, match="on an arm"):
-        compare_arms(Results(REFERENCE, {"episodes": episodes[episodes["arm"] == ""]}))
+        compare_arms(Run(REFERENCE, {"episodes": episodes[episodes["arm"] == ""]}))

@@ -7,14 +7,19 @@ from support import advised, map_rule
 from support.pages import RUN
 
 from bench.experiments import suites
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.run import Run, with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read_arrow
 from bench.findings import claims
 from bench.findings.claims.standing import MEASURABLE
-from bench.findings.claims.tables import Results
 from bench.findings.on_arms import best
-from bench.findings.selection.regions import decide, decide_all, find_default, find_regions, list_facts
+from bench.findings.selection.regions import (
+    decide,
+    decide_all,
+    find_default,
+    find_regions,
+    list_facts,
+)
 from bench.findings.selection.robots import ARM, POSITION, VELOCITY, decide_for
 from bench.findings.selection.run_rows import compare_run, is_unheld, settles_everywhere
 from bench.findings.selection.unbeaten import find_bounds
@@ -100,5 +105,5 @@ def test_cards_say_in_how_many_situations_a_law_is_advised():
 
 
 def test_open_question_has_the_advised_law_among_the_later_laws_that_were_judged():
-    answers = claims.judge("C27", Results(FOLDER)).evidence.instead
+    answers = claims.judge("C27", Run(FOLDER)).evidence.instead
     assert re.search(rf"(: |; ){find_default()} \(", answers)

@@ -1,12 +1,14 @@
 """A fault that explains all is known from the command field: it is named by its cause, and no episode is run."""
 
+import pandas as pd
 import pytest
 from support.command_line import bench
 from support.user_law import LAW, law_text
 
 from bench.experiments.command_field import rows
-from bench.experiments.experiment import Settings, Unit
-from bench.experiments.tables import read
+from bench.experiments.experiment import Unit
+from bench.experiments.request import Request
+from bench.experiments.tables.run import Run, with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import why
 from bench.findings.judge_law import judge_laws
@@ -88,8 +90,8 @@ def field_of(folder, text):
     own = load_law(path)
     [one] = contenders_of(own)
     unit = Unit("command-field", one.name, "free-body", engine="ideal-held", count=1, total=1)
-    found = read.pd.DataFrame(rows(Settings(own=(own,)), unit))
-    return read.with_contender(found)
+    found = pd.DataFrame(rows(Request(laws=(one,)), unit))
+    return with_contender(found)
 
 
 @pytest.mark.parametrize("name", CAUSES)
@@ -113,7 +115,7 @@ def test_sign_of_zero_is_not_blamed_where_single_half_turns_are_dead():
     """The one dead axis of a law without a sign."""
     finding = {"dead-half-turns": "some", "no-number-half-turns": "none", "jump-half-turns": "jump"}
     finding |= {"stiffness": "uneven", "damping": "as-set"}
-    table = read.pd.DataFrame({"finding": finding.keys(), "what": finding.values(), "value": 1.0})
+    table = pd.DataFrame({"finding": finding.keys(), "what": finding.values(), "value": 1.0})
     assert why.find_words(table, "local")["dead-half-turns"] == "some"
     table["what"] = table["what"].replace("some", "every")
     assert why.find_words(table, "local")["dead-half-turns"] == "between"
@@ -131,7 +133,7 @@ def test_degrees_are_named_and_another_gain_is_not_taken_for_them(tmp_path, fact
 
 
 def test_no_law_of_ours_has_such_a_cause():
-    field = read.table(RESULTS / "reference", "command-field")
+    field = Run(RESULTS / "reference").table("command-field")
     memories = {str(law): find_contender(str(law)).regulator.memory for law in field["contender"].unique()}
     assert len(memories) > 20
     for law, own in field.groupby("contender", observed=True):

@@ -12,10 +12,12 @@ import pytest
 from click.testing import CliRunner
 from pyarrow import parquet
 
+from bench.base.errors import NoEvidence
 from bench.base.files import read_json
 from bench.base.provenance import ROOT
 from bench.cli import claims as command
 from bench.cli.summary.paper import count_verdicts
+from bench.experiments.tables.run import Run
 from bench.findings import claims
 from bench.findings.claims import at_gains
 from bench.findings.claims.errata import COVERAGE, ERRATA, UNTESTABLE
@@ -25,7 +27,6 @@ from bench.findings.claims.verdict import (
     Claim,
     Earlier,
     Evidence,
-    NoEvidence,
     Verdict,
     Word,
     decide,
@@ -192,7 +193,7 @@ def test_run_of_two_starts_a_set_judges_no_claim_about_episodes(tmp_path):
         parquet.write_table(
             rows.take([*rows.to_pandas().groupby(by, observed=True).head(2).index]), tmp_path / path.name
         )
-    decided, lacks = claims.judge_possible(results := claims.Results(tmp_path))
+    decided, lacks = claims.judge_possible(results := Run(tmp_path))
     assert not [one.id for one in decided if "episodes" in one.evidence.tables]
     assert "fewer starts than the claim needs (2 of 1,000 uniform, 2 of 238 half-turn" in lacks["C01"]
     assert f"{len(lacks)} cannot be judged from this run" in count_verdicts(results)
@@ -239,7 +240,7 @@ def test_claims_without_the_probes_are_not_judged_and_the_run_s_lack_is_named(tm
     for path in REFERENCE.iterdir():
         if path.name != "probes.parquet":
             shutil.copy(path, tmp_path)
-    results = claims.Results(tmp_path)
+    results = Run(tmp_path)
     for id in ("C02", "C13", "C44"):
         with pytest.raises(NoEvidence, match="no row of the probe"):
             claims.judge(id, results)

@@ -4,11 +4,11 @@ import pandas as pd
 import pytest
 from support.tables import changed
 
+from bench.base.errors import NoEvidence
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims, replication
 from bench.findings.answer import NOT_TESTED, find_answer
-from bench.findings.claims.tables import Results
-from bench.findings.claims.verdict import NoEvidence
 from bench.findings.conclusions import FINDINGS, find_all, read_texts
 from bench.findings.failure_places import (
     describe_failures,
@@ -41,17 +41,17 @@ ADDED = {
 
 @pytest.fixture(scope="module")
 def frames():
-    return {name: Results(REFERENCE).table(name) for name in TABLES}
+    return {name: Run(REFERENCE).table(name) for name in TABLES}
 
 
 @pytest.fixture(scope="module")
 def findings(frames):
-    return find_all(Results(REFERENCE, dict(frames)))
+    return find_all(Run(REFERENCE, dict(frames)))
 
 
 def find(frames, name, **planted):
     """Return the sentence of a conclusion on the reference with planted tables."""
-    return FINDINGS[name](Results(REFERENCE, {**frames, **planted}))
+    return FINDINGS[name](Run(REFERENCE, {**frames, **planted}))
 
 
 def of_law(frames, law):
@@ -95,7 +95,7 @@ def test_settling_of_the_cross_product_is_read_off_the_rows(frames, findings):
 
 
 def test_places_of_failure_are_read_off_the_rows(frames):
-    rows = replication.starts_at_rest(Results(REFERENCE, dict(frames)))
+    rows = replication.starts_at_rest(Run(REFERENCE, dict(frames)))
     rows = rows[rows["contender"].astype(str) == "rotation-matrix"]
     beta, angle, alpha = rows["beta0"].abs(), rows["angle0_rad"], rows["alpha0"].abs()
     settled = changed(rows, rows.index, outcome="settled")
@@ -126,17 +126,17 @@ def test_noise_that_traps_a_law_is_read_off_the_rows(frames):
     rows = frames["robustness"]
     of_hybrid = (rows["contender"].astype(str) == "hybrid") & (rows["axis"] == "half-turn-noise")
     trapped = changed(rows, of_hybrid & (rows["level"] == 0.03), outcome="stuck")
-    assert least_trapping_noise(Results(REFERENCE, dict(frames)), "hybrid") == float("inf")
-    assert least_trapping_noise(Results(REFERENCE, {**frames, "robustness": trapped}), "hybrid") == 0.03
-    assert least_trapping_noise(Results(REFERENCE, {**frames, "robustness": rows[~of_hybrid]}), "hybrid") is None
+    assert least_trapping_noise(Run(REFERENCE, dict(frames)), "hybrid") == float("inf")
+    assert least_trapping_noise(Run(REFERENCE, {**frames, "robustness": trapped}), "hybrid") == 0.03
+    assert least_trapping_noise(Run(REFERENCE, {**frames, "robustness": rows[~of_hybrid]}), "hybrid") is None
 
 
 def test_torque_past_gimbal_lock_is_read_off_the_rows(frames):
     rows = frames["episodes"]
     euler = rows["contender"].astype(str).str.startswith("feedback-linearized/zyx-euler@analytic")
     twice = changed(rows, euler, peak_torque_ratio=lambda torque: 2.0 * torque, outcome="diverged")
-    before = replication.compare_jacobians(Results(REFERENCE, dict(frames)))
-    after = replication.compare_jacobians(Results(REFERENCE, {**frames, "episodes": twice}))
+    before = replication.compare_jacobians(Run(REFERENCE, dict(frames)))
+    after = replication.compare_jacobians(Run(REFERENCE, {**frames, "episodes": twice}))
     assert after.harder.value == pytest.approx(2.0 * before.harder.value)
     assert after.failed == (before.failed[0], before.moves)
 
@@ -160,7 +160,7 @@ def test_sentence_says_not_tested_without_its_table(frames, name):
     empty = {lacking: frames[lacking].iloc[:0]}
     with pytest.raises(NoEvidence):
         find(frames, name, **empty)
-    assert find_all(Results(REFERENCE, {**frames, **empty}))[name].startswith("Not tested: ")
+    assert find_all(Run(REFERENCE, {**frames, **empty}))[name].startswith("Not tested: ")
 
 
 def test_answer_is_the_law_that_the_conclusions_and_the_open_question_name(findings):
@@ -169,7 +169,7 @@ def test_answer_is_the_law_that_the_conclusions_and_the_open_question_name(findi
     named = f"{answer.law} ({answer.attribution})"
     for name in ("cost", "no-regulator", "open-question"):
         assert f": {named}, " in findings[name]
-    assert named in claims.judge("C27", Results(REFERENCE)).correction
+    assert named in claims.judge("C27", Run(REFERENCE)).correction
 
 
 def test_every_need_has_a_law_its_attribution_a_reason_and_a_price():

@@ -8,9 +8,10 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.experiment import Unit, rows_of
 from bench.experiments.impedance import STIFFNESSES, ZETA
 from bench.experiments.impedance_modes import SHIPPED, find_longest_delay
+from bench.experiments.request import Request
 from bench.findings.theory import impedance_modes as theory
 from bench.law.control.unshaped import DAMPINGS
 from tasks.kinematics import Kinematics
@@ -23,7 +24,7 @@ DESIGNS = tuple(DAMPINGS)
 def measured(arm: str, damping: str, dt: float = 1e-3) -> pd.DataFrame:
     """Rows of a design on an arm, with theory."""
     unit = Unit("impedance-modes", task="arm-regulation", arm=arm, selector=damping)
-    return theory.with_theory(rows_of(Settings(dt_s=dt), unit))
+    return theory.with_theory(rows_of(Request(dt_s=dt), unit))
 
 
 @pytest.mark.parametrize("damping", DESIGNS)

@@ -15,13 +15,20 @@ import tasks
 from bench.engines.episode import OUTCOME
 from bench.engines.simulate import run
 from bench.experiments import plan
-from bench.experiments.choice import Choice
 from bench.experiments.experiment import rows_of
-from bench.experiments.tables.read import with_contender
+from bench.experiments.request import Request
+from bench.experiments.tables.run import with_contender
 from bench.experiments.velocity_limits import LAG_TICKS
 from bench.findings.theory import robustness_theory, thresholds
 from bench.findings.theory.held_goals import held_share, least_cosine
-from bench.findings.theory.velocity_limits import by_eigenvalues, derivative, lagged, near, on_arm, with_theory
+from bench.findings.theory.velocity_limits import (
+    by_eigenvalues,
+    derivative,
+    lagged,
+    near,
+    on_arm,
+    with_theory,
+)
 from bench.law.contenders.registry import all_contenders, contenders, find_contender, inverse
 from bench.law.display import Equation
 from bench.law.inputs import AT_REST, Gains, Goal
@@ -146,8 +153,8 @@ EXACT = ("solve", "pseudo-inverse", "truncated-svd", "damped-least-squares-varia
 
 def test_limit_of_every_velocity_law_is_within_one_percent_of_its_closed_form():
     laws = [one for one in all_contenders() if not one.regulator.costing_only]
-    made = plan.make("quick", laws, Choice(experiments=("velocity-limits",)))
-    rows = with_theory(with_contender(pd.concat([rows_of(made.settings, unit) for unit in made.units])))
+    made = plan.make(Request("quick", tuple(laws), experiments=("velocity-limits",)))
+    rows = with_theory(with_contender(pd.concat([rows_of(made.request, unit) for unit in made.units])))
     has_theory = rows["k_dt_theory"].notna()
     off = (rows["k_dt"] - rows["k_dt_theory"]).abs() - 0.01 * rows["k_dt_theory"]
     assert rows[has_theory & (off > 0.0)].to_dict("records") == []

@@ -10,14 +10,14 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 
 from bench.cli import claims as command
 from bench.cli import run as run_command
-from bench.experiments.experiment import Settings
 from bench.experiments.probes import sliding as probe
 from bench.experiments.probes.body_frame import IN_BODY_FRAME
 from bench.experiments.probes.commands import command as command_of
+from bench.experiments.request import Request
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
 from bench.findings.claims.lopez_slotine_2024 import attitude
-from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import LONGEST_MEASURED, Word
 from bench.law.contenders.regulators import sliding
 from bench.law.inputs import Gains, Goal
@@ -96,7 +96,7 @@ def test_rates_multiply_to_the_spring_of_the_law():
 def measured(measure, gains=GAINS[0], seed=0):
     """Return the numbers of a probe by the name of their measure."""
     found = {}
-    for one in measure(Settings(gains=gains, seed=seed), None):
+    for one in measure(Request(gains=gains, seed=seed), None):
         found.setdefault(one.measure, []).append(one.value)
     return found
 
@@ -127,7 +127,7 @@ def test_both_frames_have_one_angle_and_from_spinning_starts_two_motions():
 def test_noise_holds_the_law_without_memory_alone_if_it_exceeds_the_turn_of_a_period(share, is_held):
     for period_s in (1e-3, 1e-4):
         held = {"sliding": 0, "sliding-memory": 0}
-        for one in probe.hold(Settings(), period_s, share):
+        for one in probe.hold(Request(), period_s, share):
             held[one.words["regulator"]] += one.outcome != "settled"
             assert one.value == pytest.approx(share * 100.0 * period_s**2)
         assert held == {"sliding": 3 if is_held else 0, "sliding-memory": 0}
@@ -154,7 +154,7 @@ def test_claim_has_its_texts(claim):
 
 @pytest.fixture(scope="module")
 def verdicts():
-    return {one.id: one for one in claims.judge_each(Results(RESULTS / "reference"), PAPER)}
+    return {one.id: one for one in claims.judge_each(Run(RESULTS / "reference"), PAPER)}
 
 
 def test_measured_values_fit_a_cell_and_what_does_not_hold_has_what_is_true(verdicts):

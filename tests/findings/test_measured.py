@@ -6,19 +6,14 @@ import pandas as pd
 import pytest
 
 from bench.base.files import read_json
+from bench.experiments.tables.run import Run, query_of
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.statistics import Estimate
 from bench.findings import claims
 from bench.findings.amounts import part_of
 from bench.findings.claims.at_gains import at_every_gain
 from bench.findings.claims.performance import is_without_memory, whose
-from bench.findings.claims.tables import (
-    Results,
-    interval_or_never,
-    percent,
-    query_of,
-    share,
-)
+from bench.findings.claims.tables import interval_or_never, percent, share
 from bench.findings.claims.verdict import LONGEST_MEASURED, Claim, Evidence, Verdict, Word
 from bench.findings.selection.regions import find_default
 from bench.law.inputs import Gains
@@ -30,7 +25,7 @@ ZERO_OR_ALL = re.compile(r"\b0 of (the )?\d|\b([\d,]+) of (the )?\2\b(?![,.]\d)"
 
 @pytest.fixture(scope="module")
 def verdicts():
-    decided, lacks = claims.judge_possible(Results(REFERENCE))
+    decided, lacks = claims.judge_possible(Run(REFERENCE))
     assert not lacks
     return {verdict.id: verdict for verdict in decided}
 
@@ -118,7 +113,7 @@ def test_condition_chooses_rows_by_one_word_or_some():
     assert frame.query(condition).index.tolist() == [0]
 
 
-class Run(Results):
+class OfGains(Run):
     """A run of which only the gains are known."""
 
     def __init__(self, kv):
@@ -135,8 +130,8 @@ def test_measured_value_is_of_the_run_s_gains_and_names_those_with_another_word(
         numbers = (("Law", "Time"), ("a", f"{run.kv:g} s"))
         return word, Evidence("", 1, measured=f"{run.kv:g} starts.", numbers=numbers)
 
-    own = Run(20.0)
-    own.others = [Run(10.0)]
+    own = OfGains(20.0)
+    own.others = [OfGains(10.0)]
     _, evidence = at_every_gain(decide)(own)
     assert evidence.measured == "At Kp = 100, Kd = 20: 20 starts. At Kp = 100, Kd = 10, the claim does not hold."
     assert evidence.numbers == (

@@ -5,11 +5,11 @@ import math
 import pandas as pd
 import pytest
 
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.statistics import Estimate
 from bench.findings.claims import adequacy
 from bench.findings.claims.at_gains import at_every_gain, weakest_at_every_gain
 from bench.findings.claims.standing import Ledger, Operations
-from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import Evidence, Word
 from bench.findings.maps import Spun, spun
 from bench.law.inputs import Gains
@@ -94,7 +94,7 @@ def test_spins_are_of_the_run_s_gains_and_engine_and_no_other():
     assert spun(counts, "hybrid", Gains(100.0, 20.0), "ideal-held") == []
 
 
-class Run(Results):
+class Decided(Run):
     """A run of which only the gains and the word are known."""
 
     def __init__(self, kv, word):
@@ -115,21 +115,22 @@ def asked(wrapper, own, *others):
 
 
 def test_gains_at_which_it_was_not_tested_give_no_word_and_are_named():
-    word, said = asked(at_every_gain, Run(16.0, Word.UNTESTED), Run(10.0, Word.HOLDS), Run(20.0, Word.HOLDS))
+    others = [Decided(10.0, Word.HOLDS), Decided(20.0, Word.HOLDS)]
+    word, said = asked(at_every_gain, Decided(16.0, Word.UNTESTED), *others)
     assert word == Word.HOLDS
     assert "At Kp = 100, Kd = 16, the verdict is 'not tested'." in said.sentence
-    assert asked(at_every_gain, Run(16.0, Word.UNTESTED), Run(20.0, Word.UNTESTED))[0] == Word.UNTESTED
+    assert asked(at_every_gain, Decided(16.0, Word.UNTESTED), Decided(20.0, Word.UNTESTED))[0] == Word.UNTESTED
 
 
 def test_word_is_the_same_from_any_run_and_its_own_rows_come_first():
-    others = [Run(10.0, Word.FAILS), Run(20.0, Word.CORRECTED)]
-    for own in (Run(10.0, Word.FAILS), Run(16.0, Word.FAILS), Run(20.0, Word.CORRECTED)):
+    others = [Decided(10.0, Word.FAILS), Decided(20.0, Word.CORRECTED)]
+    for own in (Decided(10.0, Word.FAILS), Decided(16.0, Word.FAILS), Decided(20.0, Word.CORRECTED)):
         word, said = asked(at_every_gain, own, *others)
         assert word == Word.DEPENDS
         assert said.sentence.count(f"Kd = {own.kv:g}, the verdict") == 1
 
 
 def test_weakest_word_of_all_gains_is_the_claim_s():
-    word, said = asked(weakest_at_every_gain, Run(20.0, Word.HOLDS), Run(10.0, Word.CORRECTED))
+    word, said = asked(weakest_at_every_gain, Decided(20.0, Word.HOLDS), Decided(10.0, Word.CORRECTED))
     assert word == Word.CORRECTED
     assert said.instead == "At Kp = 100, Kd = 10: true at 10 At Kp = 100, Kd = 20: true at 20"

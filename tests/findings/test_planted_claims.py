@@ -10,12 +10,12 @@ import pytest
 from support.claim_tables import TABLES, contact, reference
 from support.tables import changed, decided, judged, look_up
 
+from bench.base.errors import NoEvidence
 from bench.base.files import read_json
-from bench.experiments.tables import read
+from bench.experiments.tables.run import Run, with_contender
 from bench.findings.claims import side_by_side
 from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, ON_MATRIX, words
-from bench.findings.claims.tables import Results
-from bench.findings.claims.verdict import NoEvidence, Word
+from bench.findings.claims.verdict import Word
 from bench.findings.conclusions import read_texts, weakest_word
 from bench.studies.verdicts import STORED
 
@@ -159,7 +159,7 @@ def beside(frame):
     task = {"task": "arm-regulation"} if "task" in frame else {}
     on_arm = spoilt.assign(jacobian="geometric", inverse="solve", **task)
     together = pd.concat([on_arm, frame, spoilt.assign(representation="mrp")], ignore_index=True)
-    together = read.with_contender(together)
+    together = with_contender(together)
     # evidence lists outcomes that are equally frequent in the order of their categories
     return together.astype({"outcome": frame["outcome"].dtype}) if "outcome" in frame else together
 
@@ -194,7 +194,7 @@ def test_improvement_that_is_not_dramatic_at_other_gains_depends_on_them():
     slow = edit(
         reference(), "episodes: {} -> settling_time_s = 1.5 * settling_time_s".format(DATA["short"]["feedback_uniform"])
     )
-    other = Results(None, {"episodes": slow["episodes"].assign(kv=10.0)})
+    other = Run(None, {"episodes": slow["episodes"].assign(kv=10.0)})
     verdict = judged("C31", others=[other], **reference())
     assert verdict.word == Word.DEPENDS
     assert "At Kp = 100, Kd = 10:" in verdict.correction

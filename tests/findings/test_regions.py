@@ -10,7 +10,8 @@ from scipy.stats import binom
 from support.command_line import bench, refused
 from support.map_rule import map_verdicts
 
-from bench.experiments.experiment import Settings, Unit
+from bench.experiments.experiment import Unit
+from bench.experiments.request import Request
 from bench.experiments.situations import mapped_laws, order_interval, rows, summarize
 from bench.findings.selection.nearest import answer
 from bench.findings.selection.pairs import compare_laws, read_pairs
@@ -57,7 +58,7 @@ def test_advise_answers_a_situation_at_any_kp_as_its_rows_do(capsys, word):
 
 @pytest.mark.parametrize("word", RUN_AGAIN)
 def test_rows_of_the_map_are_those_of_episodes_run_again(word):
-    starts = pd.concat([rows(Settings("situations"), Unit("situations", law, selector=word)) for law in LAWS])
+    starts = pd.concat([rows(Request("situations"), Unit("situations", law, selector=word)) for law in LAWS])
     made = with_words(summarize(starts)).set_index("contender")
     kept = read_map()[read_map()["situation"] == word].set_index("contender").loc[made.index]
     counts = ["starts", "lost", "stuck", "trapped", "unwound", "operations"]

@@ -8,10 +8,19 @@ import pandas as pd
 import pytest
 from scipy.stats import beta, norm
 from support.advised import is_ours
-from support.map_rule import NOTABLE, SPOKEN, is_of_draw, map_rows, map_verdicts, shares_of, slower_pairs, widest
+from support.map_rule import (
+    NOTABLE,
+    SPOKEN,
+    is_of_draw,
+    map_rows,
+    map_verdicts,
+    shares_of,
+    slower_pairs,
+    widest,
+)
 from support.tables import table
 
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.run import with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.selection import reset, sensitivity, unbeaten, words
 from bench.findings.selection.pairs import compare_times, find_slower

@@ -7,7 +7,7 @@ from support.command_line import bench
 from support.user_law import law_text
 
 from bench.experiments.experiment import rows_of
-from bench.experiments.tables import read
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.judge_law import ENGINE, START_SETS, describe_law, plan_of
 from bench.findings.why import ends, sentences
@@ -75,7 +75,7 @@ def found(tmp_path_factory):
         plan = plan_of([one])
         for unit in plan.units:
             if unit.experiment == "command-field" or (unit.selector == "uniform" and FAULTY[name][2] & OF_EPISODES):
-                parts[one.name, unit.experiment].append(rows_of(plan.settings, unit))
+                parts[one.name, unit.experiment].append(rows_of(plan.request, unit))
         [field] = parts[one.name, "command-field"]
         moves = (one.name, "free-body") in parts
         said = (
@@ -97,7 +97,7 @@ def test_faulty_law_is_named_for_what_it_is(found, name):
 
 def test_our_own_laws_raise_no_false_alarm():
     """Controls apart. Laws in Euler angles fail where those are singular, Z-Y-Z angles at the goal itself."""
-    field, run = read.table(REFERENCE, "command-field"), read.table(REFERENCE, "episodes")
+    field, run = Run(REFERENCE).table("command-field"), Run(REFERENCE).table("episodes")
     run = run[(run["arm"] == "") & (run["engine"] == ENGINE) & run["start_set"].isin(START_SETS)]
     laws = [find_contender(name) for name in field["contender"].unique()]
     assert laws

@@ -11,8 +11,8 @@ from support.states import directions, of_scipy, vector
 
 import tasks
 from bench.base.errors import Incompatible
-from bench.experiments.choice import Choice
 from bench.experiments.plan import make
+from bench.experiments.request import Request
 from bench.experiments.suites import SUITES
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import Gains, Goal
@@ -63,7 +63,7 @@ def test_torque_is_kp_times_the_rotation_vector_and_minus_kv_times_the_rate(angl
 
 @pytest.mark.parametrize("word", SUITES)
 def test_suite_runs_it_in_mujoco_alone_on_sampled_starts_and_half_turns(word):
-    units = make(word, [ONE]).of("free-body", "arm", "robustness")
+    units = make(Request(word, (ONE,))).of("free-body", "arm", "robustness")
     assert {unit.engine for unit in units} <= {"native", "reference"}
     assert {"uniform", "half-turn", "paper", "poles"} <= {unit.selector for unit in units}
     assert {unit.arm for unit in units} == {""}
@@ -71,10 +71,10 @@ def test_suite_runs_it_in_mujoco_alone_on_sampled_starts_and_half_turns(word):
 
 def test_it_is_refused_where_mujoco_has_no_such_actuator():
     for choice, reason in (
-        (Choice(tasks=("free-body",), engines=("ideal-rk4",)), "ideal-rk4 simulates no actuator of MuJoCo"),
-        (Choice(arms=("ur5e",)), "'in-engine' is an actuator of MuJoCo and turns the free body alone"),
+        ({"tasks": ("free-body",), "engines": ("ideal-rk4",)}, "ideal-rk4 simulates no actuator of MuJoCo"),
+        ({"arms": ("ur5e",)}, "'in-engine' is an actuator of MuJoCo and turns the free body alone"),
     ):
         with pytest.raises(Incompatible, match=reason):
-            make("quick", [ONE], choice)
+            make(Request("quick", (ONE,), **choice))
     with pytest.raises(BadValue, match="'arm-regulation' has no model with an <orientation> actuator"):
         tasks.task("arm-regulation", "ur5e").with_servo(*GAINS)

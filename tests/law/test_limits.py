@@ -91,7 +91,7 @@ def test_other_laws_answer_the_same_with_limits_and_without():
 
 
 def test_rate_that_can_be_braked_does_not_overshoot_where_motors_are_weak(cascade):
-    settings = plan_of([(cascade, README)]).settings
+    settings = plan_of([(cascade, README)]).request
     found = {}
     for one in (cascade, find_contender("hybrid")):
         rows = run_starts(settings, one, README, README.starts(128, 0), README.condition())

@@ -13,7 +13,8 @@ from bench.base.provenance import ROOT
 from bench.engines.episode import FAILURE_TICK, OUTCOME
 from bench.engines.simulate import run
 from bench.experiments.suites import ENGINES
-from bench.experiments.tables import read, store
+from bench.experiments.tables import store
+from bench.experiments.tables.run import VARIABLE, shown_run
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import contenders_of
 from report.figures.cards import regulators
@@ -117,8 +118,8 @@ def test_own_law_runs_on_every_engine_and_settles_and_the_run_keeps_it_for_the_r
     assert "my-law" in set(store.read(out, "costs")["regulator"])
     assert (out / "laws" / "my_law.py").read_text() == EXAMPLE
     path.unlink()
-    monkeypatch.setenv(read.VARIABLE, str(out))
-    [own] = read.own_laws()
+    monkeypatch.setenv(VARIABLE, str(out))
+    [own] = shown_run().user_laws()
     assert own.name == "my-law"
     assert regulators.in_order()[-1].name == "my-law"
     text = fold(regulators.source(own))

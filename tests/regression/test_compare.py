@@ -12,8 +12,8 @@ from bench.base.files import read_json, write_json
 from bench.cli import main
 from bench.experiments import boundaries, traces
 from bench.experiments import plan as planning
-from bench.experiments.choice import Choice
-from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.experiment import Unit, rows_of
+from bench.experiments.request import Request
 from bench.experiments.tables.store import read, write_table
 from bench.law.contenders.registry import find_contender
 from bench.regression.rows import compare
@@ -37,25 +37,43 @@ def change(folder, table, edit):
 @pytest.fixture(scope="module")
 def body(tmp_path_factory):
     """Two laws on the free body."""
-    laws = [find_contender("rotation-matrix"), find_contender("feedback-linearized/zyx-euler")]
-    plan = planning.make("quick", laws, Choice(start_sets=("paper", "poles"), engines=("ideal-held",)), horizon_s=2.0)
+    laws = (find_contender("rotation-matrix"), find_contender("feedback-linearized/zyx-euler"))
+    plan = planning.make(
+        Request("quick", laws, start_sets=("paper", "poles"), engines=("ideal-held",), horizon_s=2.0)
+    )
     return ran(plan, tmp_path_factory)
 
 
 @pytest.fixture(scope="module")
 def arms(tmp_path_factory):
     """Two arms and two inverses, which only the columns of an arm distinguish."""
-    places, ways = (("arm-regulation",), ("clear",), ("native",), ("puma560", "ur5e")), ("solve", "truncated-svd")
-    choice = Choice(*places, ("geometric",), ways, ("nominal", "mass-1.15"))
-    plan = planning.make("quick", [find_contender("rotation-matrix")], choice, count=1, horizon_s=1.5)
-    return ran(plan, tmp_path_factory)
+    request = Request(
+        "quick",
+        (find_contender("rotation-matrix"),),
+        count=1,
+        horizon_s=1.5,
+        tasks=("arm-regulation",),
+        start_sets=("clear",),
+        engines=("native",),
+        arms=("puma560", "ur5e"),
+        jacobians=("geometric",),
+        inverses=("solve", "truncated-svd"),
+        variations=("nominal", "mass-1.15"),
+    )
+    return ran(planning.make(request), tmp_path_factory)
 
 
 @pytest.fixture(scope="module")
 def contact(tmp_path_factory):
     """One controller on all poses of wrench-probe on one arm; the pole is among them."""
-    choice = Choice(("wrench-probe",), arms=("ur5e",), controllers=("impedance-coordinates/zyx-euler",))
-    return ran(planning.make("quick", [], choice, horizon_s=0.02), tmp_path_factory)
+    request = Request(
+        "quick",
+        horizon_s=0.02,
+        tasks=("wrench-probe",),
+        arms=("ur5e",),
+        controllers=("impedance-coordinates/zyx-euler",),
+    )
+    return ran(planning.make(request), tmp_path_factory)
 
 
 @pytest.fixture
@@ -126,9 +144,9 @@ def test_gate_catches_a_moved_boundary_and_a_curve_that_bends_or_is_gone(pair, t
     base, head = pair("body")
     for folder in (base, head):
         unit = boundaries.of_law(find_contender("linearized-euler"), 16)
-        write_table(folder / "boundaries.parquet", rows_of(Settings(), unit), "boundaries")
+        write_table(folder / "boundaries.parquet", rows_of(Request(), unit), "boundaries")
         unit = traces.of_law(find_contender("rotation-matrix"), 3)
-        write_table(folder / "traces.parquet", rows_of(Settings(), unit), "traces")
+        write_table(folder / "traces.parquet", rows_of(Request(), unit), "traces")
     assert compare(base, head) == []
 
     def move(frame):
@@ -229,7 +247,7 @@ def test_gate_catches_in_contact_what_no_rounding_decides(pair, pose, before, af
 def test_rows_of_what_base_has_nowhere_are_no_difference_whatever_the_judge(pair, judge, table, words, count):
     base, head = pair("body")
     unit = Unit("robustness", "rotation-matrix", selector="delay", count=1, total=1, horizon_s=0.05)
-    perturbed = rows_of(Settings(), unit)
+    perturbed = rows_of(Request(), unit)
     for folder, name in ((base, "the same"), (head, judge)):
         write_table(folder / "robustness.parquet", perturbed, "robustness")
         write_json(folder / "provenance.json", read_json(folder / "provenance.json") | {"judge": name})

@@ -13,7 +13,7 @@ from support.user_law import law_text, spring_text
 from bench.base.errors import BadLaw
 from bench.base.provenance import machine_key
 from bench.cli.time import folder_for
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.run import with_contender
 from bench.experiments.tables.store import read_arrow
 from bench.law.contenders.described_law import described
 from bench.law.contenders.registry import contenders_of, find_contender

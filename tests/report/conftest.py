@@ -2,7 +2,7 @@
 
 import pytest
 
-from bench.experiments.tables import read
+from bench.experiments.tables.run import VARIABLE
 from bench.experiments.tables.schema import RESULTS
 
 
@@ -18,4 +18,4 @@ def opened():
 
 @pytest.fixture
 def reference(monkeypatch):
-    monkeypatch.setenv(read.VARIABLE, str(RESULTS / "reference"))
+    monkeypatch.setenv(VARIABLE, str(RESULTS / "reference"))

@@ -1,8 +1,8 @@
 """The fold of a claim: its numbers as a table, where it is shown, the rows that decide it, and how to make them."""
 
+from bench.experiments.tables.run import Run
 from bench.findings.claims.verdict import Claim, Evidence, Verdict, Word
 from report.figures.claims import evidence as page
-from report.figures.kit.page import Run
 
 CHOSEN = (("episodes", "regulator == 'a' and start_set in ['box']"),)
 

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.perturbed import Direction, Threshold
 from bench.findings.selection.regions import RuleVerdict
@@ -14,7 +15,6 @@ from report.figures.contact import as_arms_run, in_contact
 from report.figures.cost import cost
 from report.figures.failures import failure_map
 from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX
-from report.figures.kit.page import Run
 from report.figures.libraries import libraries
 from report.figures.robustness import half_turn_noise, robustness
 

@@ -10,12 +10,13 @@ from support.pasted_law import check_command
 
 from bench.base.files import read_json
 from bench.base.provenance import ROOT
+from bench.experiments.tables.run import run_in
 from bench.findings.answer import find_answer
 from bench.findings.conclusions import conclude
 from bench.law.attribution import IN_WORDS
 from report.figures import index
 from report.figures.kit import families, html
-from report.figures.kit.page import REPORT, run_in, text_of
+from report.figures.kit.page import REPORT, text_of
 from report.figures.replication import conclusions as replication
 
 BOOK = "".join(path.read_text(encoding="utf-8") for path in REPORT.glob("pages/*.md"))

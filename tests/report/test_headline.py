@@ -5,11 +5,11 @@ import re
 import pytest
 
 from bench.base.provenance import ROOT
+from bench.experiments.tables.run import run_in
 from bench.findings.conclusions import read_texts
 from bench.findings.selection.regions import find_default
 from report.figures.failures import failure_map
 from report.figures.kit import laws
-from report.figures.kit.page import run_in
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ import pytest
 from bs4 import BeautifulSoup
 
 from bench.engines import counting
-from bench.experiments.tables import read
+from bench.experiments.tables.run import with_contender
 from bench.law.contenders.registry import find_contender
 from report.figures.cards import live
 from report.figures.kit import style
@@ -21,7 +21,7 @@ LAWS = ("rotation-matrix", "mrp-memory", "feedback-linearized/zyx-euler")
 @pytest.fixture(scope="module")
 def page():
     contenders = [find_contender(name) for name in LAWS]
-    return live.page(contenders, read.with_contender(pd.DataFrame(counting.rows(contenders))))
+    return live.page(contenders, with_contender(pd.DataFrame(counting.rows(contenders))))
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ import screenshots
 from support import live
 
 import tasks
-from bench.experiments.tables import read
+from bench.experiments.tables.run import shown_run
 from tasks.condition import Condition
 from tasks.verdict import OUTCOMES
 
@@ -50,7 +50,7 @@ def test_a_thousand_episodes_of_every_law_are_the_recorded_ones(driver):
 @pytest.mark.parametrize("level", [0.01, 0.1, 0.3])
 @pytest.mark.parametrize("word", ["rotation-matrix", "mrp", "mrp-memory", "quaternion-shortest", "late-braking"])
 def test_sensor_that_is_off_near_180_holds_the_starts_that_it_held_in_the_results(driver, word, level):
-    recorded = read.robustness(axis="half-turn-noise", contender=word)
+    recorded = shown_run().table("robustness", axis="half-turn-noise", contender=word)
     recorded = recorded[np.isclose(recorded["level"], level)].reset_index()
     starts = tasks.axis("half-turn-noise").starts(len(recorded), 0, level)
     assert [one.id for one in starts] == recorded["start_id"].tolist()
@@ -64,7 +64,7 @@ def test_sensor_that_is_off_near_180_holds_the_starts_that_it_held_in_the_result
 
 @pytest.mark.parametrize("word", ["rotation-matrix", "linearized-euler/zyx-euler", "mrp-memory", "late-braking"])
 def test_colours_of_the_ball_are_the_recorded_settling_times(driver, word):
-    recorded = read.episodes(engine="ideal-rk4", start_set="uniform", contender=word).reset_index()
+    recorded = shown_run().table("episodes", engine="ideal-rk4", start_set="uniform", contender=word).reset_index()
     starts, (settings, rules) = tasks.start_set("uniform", STARTS)[: len(recorded)], live.asked()
     assert [one.id for one in starts] == recorded["start_id"].tolist()
     found = driver.execute_async_script(MAPPED, word, live.rows_of(starts), settings, rules)

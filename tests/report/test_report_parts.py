@@ -7,14 +7,13 @@ import pandas as pd
 import pytest
 
 from bench.base.provenance import ROOT
-from bench.experiments.tables import read
+from bench.experiments.tables.run import Run, shown_run
 from bench.experiments.tables.schema import RESULTS
 from bench.export.language import language_words
 from bench.law.contenders.registry import FOLDERS, contenders
 from report.figures.cards import regulators
 from report.figures.cost import cost
 from report.figures.kit import families, html, spelling
-from report.figures.kit.page import Run, run_in
 from report.figures.method import method
 
 BIBLIOGRAPHY = (ROOT / "report" / "references.bib").read_text(encoding="utf-8")
@@ -24,7 +23,7 @@ pytestmark = pytest.mark.usefixtures("reference")
 
 
 def test_every_law_has_a_page_with_its_source_and_its_files():
-    every = [regulators.page(one, run_in(read.folder())) for one in regulators.every_law()]
+    every = [regulators.page(one, shown_run()) for one in regulators.every_law()]
     pages = {made.name: made for made in every}
     assert len(pages) == len(regulators.every_law())
     for one in regulators.every_law():
@@ -40,7 +39,7 @@ def test_page_says_so_when_nothing_was_timed(tmp_path):
 
 
 def test_engines_are_compared_where_both_have_rows():
-    runs = read.episodes()
+    runs = shown_run().table("episodes")
     both, equal = method.count_equal(runs, "reference", "native")
     assert both == equal > 0
     late = method.compute_lateness_ms(runs, "native")

@@ -7,15 +7,14 @@ import pytest
 
 from bench.cli.details import robustness as details
 from bench.experiments import plan
-from bench.experiments.choice import Choice
-from bench.experiments.tables import read
+from bench.experiments.request import Request
+from bench.experiments.tables.run import VARIABLE, run_in, with_contender
 from bench.findings import perturbed, why
 from bench.findings.perturbed import Direction
 from bench.findings.theory import thresholds
 from bench.law.contenders.registry import find_contender
 from bench.running import run
 from report.figures.cards import regulators
-from report.figures.kit.page import run_in
 from report.figures.robustness import half_turn_noise, robustness
 
 KP, KV = 100.0, 20.0
@@ -32,12 +31,12 @@ def test_cards_of_laws_with_memory_say_how_far_they_keep_to_their_way(law):
 @pytest.fixture(scope="module", autouse=True)
 def small_run(tmp_path_factory):
     """Results with two starts a level of five laws; the pages read those of this module's folder."""
-    choice = Choice(axes=robustness.AXES)
-    made = plan.make("quick", [find_contender(law) for law in LAWS], choice, count=STARTS)
+    laws = tuple(find_contender(law) for law in LAWS)
+    made = plan.make(Request("quick", laws, count=STARTS, axes=robustness.AXES))
     folder = tmp_path_factory.mktemp("robustness") / "run"
     run.run(made, folder)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv(read.VARIABLE, str(folder))
+        patch.setenv(VARIABLE, str(folder))
         yield run_in(folder)
 
 
@@ -59,7 +58,7 @@ def test_threshold_is_the_level_before_the_first_that_costs_a_law_its_starts(sma
 def test_judge_and_show_have_one_threshold(small_run):
     rows_of_run = small_run.rows("robustness")
     lines = details.summary(rows_of_run).set_index("law")
-    for law, own in perturbed.thresholds(read.with_contender(perturbed.by_level(rows_of_run))).items():
+    for law, own in perturbed.thresholds(with_contender(perturbed.by_level(rows_of_run))).items():
         text = why.perturbed(rows_of_run[rows_of_run["contender"] == law])[0].text
         for direction, one in own.items():
             assert lines.loc[law, direction.name] == str(one)

@@ -18,13 +18,15 @@ from bench.base.files import read_json
 from bench.base.processes import module_command
 from bench.base.provenance import ROOT
 from bench.experiments import map as maps
-from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.experiment import Unit, rows_of
+from bench.experiments.request import Request
 from bench.experiments.tables import packed, store
 from bench.experiments.tables.schema import RESULTS, all_tables
+from bench.law.contender import Contender
 from bench.law.contenders.described_law import described
 from bench.law.contenders.registry import find_contender
 from bench.running import run
-from bench.running.answers import check_rows
+from bench.running.sandbox.answers import check_rows
 
 PATHS = sorted((RESULTS / "reference").glob("*.parquet"))
 
@@ -67,7 +69,7 @@ LIES = {
 
 @pytest.mark.parametrize("name", UNITS)
 def test_rows_that_are_not_the_units_are_refused(name):
-    settings, unit = Settings("map" if name == "map" else "experiment"), UNITS[name]
+    settings, unit = Request("map" if name == "map" else "experiment"), UNITS[name]
     rows = rows_of(settings, unit)
     check_rows(settings, unit, rows)
     of_starts = {word: lambda rows, word=word: rows.assign(**{word: 0.5}) for word in ("quat_w", "horizon_s")}
@@ -152,9 +154,10 @@ def test_law_that_lies_loses_its_own_rows_alone(tmp_path, way, laws):
 def killed_while(folder, condition: str):
     """A plan of our law and one whose process is killed when it loads the file, while this holds."""
     plan = plan_of(folder, "pass", engine="ideal-rk4")
-    killed = f"import os, sys\nif 'sandbox_process' in sys.argv[0] and {condition}: os.kill(os.getpid(), 9)\n"
+    killed = f"import os, sys\nif 'running/sandbox' in sys.argv[0] and {condition}: os.kill(os.getpid(), 9)\n"
     (folder / "mine.py").write_text(killed + spring_text("pass"))
-    return dataclasses.replace(plan, settings=plan.settings._replace(own=(described(folder / "mine.py"),)))
+    laws = (Contender(described(folder / "mine.py")),)
+    return dataclasses.replace(plan, request=dataclasses.replace(plan.request, laws=laws))
 
 
 def outcomes(folder, law: str) -> set:

@@ -16,14 +16,14 @@ from support.unit_kinds import plan_of_all_kinds
 from bench.base.errors import BadNumber, BadResults, LostWorkers, MissingTool, UnknownWord
 from bench.base.files import read_json
 from bench.experiments import plan as planning
-from bench.experiments.choice import Choice
 from bench.experiments.experiment import experiment_of, known_experiments
+from bench.experiments.request import Request
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import find_contender
 from bench.running import run, wire_format
 from bench.running.run import in_running_order
 from bench.running.run_folder import begin, part
-from bench.running.sandbox import Sandbox
+from bench.running.sandbox.sandbox import Sandbox
 from bench.running.schedulers import check_scheduler, cluster, kind, worker
 from bench.running.schedulers.cluster import CHUNK_S, MOST_EPISODES, in_batches
 from bench.running.wire_format import described
@@ -212,8 +212,16 @@ def test_batches_of_fast_episodes_are_of_as_many_as_memory_holds():
 
 
 def units_of_much_work(engine):
-    choice = Choice(("free-body",), ("uniform",), (engine,), experiments=("free-body",))
-    return planning.make("default", [find_contender("rotation-matrix")], choice, count=300_000).units
+    request = Request(
+        "default",
+        (find_contender("rotation-matrix"),),
+        count=300_000,
+        tasks=("free-body",),
+        start_sets=("uniform",),
+        engines=(engine,),
+        experiments=("free-body",),
+    )
+    return planning.make(request).units
 
 
 def test_chunk_has_the_units_of_every_kind_and_they_arrive_as_they_were_sent(plan):
@@ -229,8 +237,9 @@ def test_chunk_of_one_unit_carries_no_law_of_another(plan):
 
 def test_first_unit_of_each_contender_runs_before_the_rest_of_the_one_before_it():
     laws = [find_contender(word) for word in ("rotation-matrix", "linearized-euler/zyx-euler")]
-    beside = Choice(experiments=("free-body", "contact", "robustness"))
-    off_arms, on_arm = (planning.make("quick", laws, one, count=4) for one in (beside, Choice(arms=("ur5e",))))
+    beside = {"experiments": ("free-body", "contact", "robustness")}
+    off_arms = planning.make(Request("quick", tuple(laws), count=4, **beside))
+    on_arm = planning.make(Request("quick", tuple(laws), count=4, arms=("ur5e",)))
     units = (*off_arms.units, *on_arm.of("arm"))
     each = {name: [unit for unit in units if unit.contender == name] for name in [unit.contender for unit in units]}
     assert len(each) > 4

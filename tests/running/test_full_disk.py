@@ -9,7 +9,7 @@ from support.command_line import digest
 from bench.base import files
 from bench.base.errors import BadResults
 from bench.experiments import plan as planning
-from bench.experiments.choice import Choice
+from bench.experiments.request import Request
 from bench.law.contenders.registry import find_contender
 from bench.running import run
 
@@ -18,8 +18,8 @@ KILOBYTES = 1024
 
 @pytest.fixture(scope="module")
 def plan():
-    choice = Choice(start_sets=("paper",), engines=("reference",), experiments=("free-body",))
-    return planning.make("quick", [find_contender("rotation-matrix")], choice, horizon_s=0.1)
+    words = {"start_sets": ("paper",), "engines": ("reference",), "experiments": ("free-body",)}
+    return planning.make(Request("quick", (find_contender("rotation-matrix"),), horizon_s=0.1, **words))
 
 
 @pytest.fixture

@@ -13,10 +13,11 @@ from support.user_law import law_text, spring_text
 
 import tasks
 from bench.base.errors import BadLaw
+from bench.base.processes import LAW_PROCESS
 from bench.cli import main
+from bench.experiments.free_body import MOST
 from bench.experiments.tables import store
 from bench.law.contenders.described_law import described
-from bench.law.contenders.law_process import TOKEN
 from tasks.rotations import columns
 
 ASKED = ("--starts", "uniform", "--horizon", "0.02", "--law-limit", "1", "--experiment", "free-body")
@@ -49,7 +50,7 @@ def some(line: str) -> str:
 
 def late(line: str) -> str:
     """A file that does this when it is imported in a run, and not when it is first read."""
-    return top(f"if 'sandbox_process' in sys.argv[0]: {line}")
+    return top(f"if 'running/sandbox' in sys.argv[0]: {line}")
 
 
 PLACES = {"top": top, "each": each, "some": some, "late": late}
@@ -80,6 +81,12 @@ COMPILED = table("compiled")
 IN_A_TICK = {law: tuple(told) for law, told in DATA["in-a-tick"].items()}
 """Python code: what a law answers in the first tick of an episode, one after the other."""
 
+LOST = {law: tuple(told) for law, told in DATA["lost-in-a-tick"].items()}
+"""The same of laws that lose what is run together: each has a file, and does it in its first episode."""
+
+A_UNIT = MOST["reference"]
+"""Episodes that are run together in Python."""
+
 IN_TURN = """
 import atexit, ctypes, resource, signal, threading
 {WRITTEN}
@@ -87,9 +94,9 @@ BEGINNINGS, ANSWERS = {beginnings}, [{answers}]
 """
 
 
-def in_turn(beginnings: list[float]) -> str:
+def in_turn(beginnings: list[float], codes: list[str]) -> str:
     """A law that answers so in episodes that begin with these R.n[0], and else is sound."""
-    answers = ", ".join(f"lambda R, omega, goal, gains, u: {one}" for one, _ in IN_A_TICK.values())
+    answers = ", ".join(f"lambda R, omega, goal, gains, u: {code}" for code in codes)
     head = IN_TURN.format(WRITTEN=WRITTEN, beginnings=beginnings, answers=answers)
     first = "if R.n[0] in BEGINNINGS: return ANSWERS[BEGINNINGS.index(R.n[0])](R, omega, goal, gains, (-x, -y, -z))"
     return head + spring_text(first, name="NAME")
@@ -114,7 +121,7 @@ def nothing_is_left_behind():
         yield
     for process in psutil.process_iter():
         with contextlib.suppress(psutil.Error):
-            is_left = {TOKEN, marker} <= process.environ().keys() and process.status() != psutil.STATUS_ZOMBIE
+            is_left = {LAW_PROCESS, marker} <= process.environ().keys() and process.status() != psutil.STATUS_ZOMBIE
             assert not is_left, process
 
 
@@ -161,7 +168,10 @@ def same(one, other):
 BEGINNINGS = [columns(start.quat_wxyz)[0][0] for start in tasks.start_set("uniform", len(IN_A_TICK))]
 LAWS = {
     "ideal-rk4": {name: text for name, (text, _) in COMPILED.items()},
-    "reference": {"in-turn": in_turn(BEGINNINGS)},
+    "reference": {
+        "in-turn": in_turn(BEGINNINGS, [code for code, _ in IN_A_TICK.values()]),
+        **{name: in_turn(BEGINNINGS[:1], [code]) for name, (code, _) in LOST.items()},
+    },
 }
 
 
@@ -196,7 +206,10 @@ def test_rows_of_a_law_that_misbehaves_say_so(engine, beside, alone):
     becomes = {name: one["outcome"].where(~same(one, sound), "") for name, one in made.items()}
     expected: dict = COMPILED
     if engine == "reference":
-        becomes, expected = {name: [word] for name, word in zip(IN_A_TICK, becomes["in-turn"], strict=True)}, IN_A_TICK
+        in_turn_becomes = becomes.pop("in-turn")
+        assert all(set(words[A_UNIT:]) == {""} for words in becomes.values())
+        becomes |= {name: [word] for name, word in zip(IN_A_TICK, in_turn_becomes, strict=True)}
+        expected = IN_A_TICK | LOST
     found = {name: "".join(set(words) - {""}) for name, words in becomes.items()}
     assert found == {name: word for name, (_, word) in expected.items()}
     lost = pd.concat(one[one["outcome"] == "hung"] for one in made.values())
@@ -235,4 +248,4 @@ def test_law_that_misbehaves_does_not_pass_the_judge(capsys, tmp_path, name):
 
 
 def test_law_of_python_alone_is_not_judged(capsys, tmp_path):
-    assert "cannot be compiled" in refused(capsys, "judge", written(tmp_path, "in-turn", in_turn(BEGINNINGS)))
+    assert "cannot be compiled" in refused(capsys, "judge", written(tmp_path, "in-turn", LAWS["reference"]["in-turn"]))

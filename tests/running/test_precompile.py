@@ -14,12 +14,13 @@ from support.command_line import python, started
 
 from bench.base.processes import module_command
 from bench.experiments import plan
-from bench.experiments.choice import Choice
+from bench.experiments.request import Request
 from bench.law.contenders.registry import all_contenders, find_contender
 from bench.running import precompile
 from bench.running.wire_format import described
 
-EVERY = plan.make("quick", all_contenders(), Choice(tasks=("free-body",)))  # starts of arms take seconds to find
+# Without arms, whose starts take seconds to find.
+EVERY = plan.make(Request("quick", tuple(all_contenders()), tasks=("free-body",)))
 
 
 def compile_apart(folder: Path, units: tuple, *counted: str) -> list[int]:
@@ -45,7 +46,7 @@ def test_what_is_beyond_a_life_is_done_by_the_next_fork(tmp_path):
 
 
 def test_a_few_contenders_are_not_worth_a_process():
-    few = plan.make("quick", [find_contender("hybrid")], Choice(tasks=("free-body",)))
+    few = plan.make(Request("quick", (find_contender("hybrid"),), tasks=("free-body",)))
     with precompile.compiling_ahead(few, few.units) as ahead:
         assert ahead is None
 
@@ -80,9 +81,10 @@ def test_the_process_ends_with_the_run_even_if_that_fails():
 
 def test_the_process_and_its_fork_end_with_a_run_that_is_killed(tmp_path):
     script = (
-        "import time; from bench.experiments import choice, plan; from bench.law.contenders import registry\n"
+        "import time; from bench.experiments import plan, request; from bench.law.contenders import registry\n"
         "from bench.running import precompile\n"
-        "every = plan.make('quick', registry.all_contenders(), choice.Choice(tasks=('free-body',)))\n"
+        "laws = tuple(registry.all_contenders())\n"
+        "every = plan.make(request.Request('quick', laws, tasks=('free-body',)))\n"
         "with precompile.compiling_ahead(every, every.units) as ahead:\n"
         "    print(ahead.process.pid, flush=True); time.sleep(60)"
     )

@@ -15,10 +15,11 @@ import pytest
 import tasks
 from bench.base.files import read_json
 from bench.base.provenance import ROOT
-from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.experiment import Unit, rows_of
+from bench.experiments.request import Request
 from bench.experiments.robustness import HORIZON_S
 from bench.experiments.tables import store
-from bench.experiments.tables.read import table, with_contender
+from bench.experiments.tables.run import Run, with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
 from bench.findings.maps import lost_share
@@ -34,7 +35,7 @@ from bench.studies.verdicts import HALF_STEP, RUNS, SEEDS, STORED, plan_of, turn
 
 def test_study_has_every_level_of_every_perturbation_for_every_law():
     found = studied().groupby("axis", observed=True)
-    assert set(found.groups) == set(table(RESULTS / "reference", "robustness")["axis"])
+    assert set(found.groups) == set(Run(RESULTS / "reference").table("robustness")["axis"])
     laws = set(studied()["contender"])
     assert {"late-braking", "rotation-matrix", "feedback-linearized/zyx-euler"} < laws
     for name, rows in found:
@@ -53,7 +54,7 @@ def test_every_share_is_known_to_five_points():
 @pytest.mark.parametrize("law", ["rotation-matrix", "late-braking"])
 def test_study_is_what_the_code_makes_now(law):
     unit = Unit("robustness", law, selector="saturation", count=STARTS, total=STARTS, horizon_s=HORIZON_S)
-    now = with_contender(by_level(rows_of(Settings("default"), unit)))
+    now = with_contender(by_level(rows_of(Request("default"), unit)))
     kept = studied()[(studied()["axis"] == "saturation") & (studied()["contender"] == find_contender(law).name)]
     assert now["good"].tolist() == kept["good"].tolist()
     np.testing.assert_allclose(now["median_s"], kept["median_s"], atol=1e-3)
@@ -100,8 +101,8 @@ def test_word_that_turns_is_told_by_claim_and_run():
 
 def test_seed_and_step_run_what_hangs_on_them():
     drawn, halved = plan_of("3"), plan_of(HALF_STEP)
-    assert (drawn.settings.seed, drawn.settings.dt_s) == (3, 1e-3)
-    assert (halved.settings.seed, halved.settings.dt_s) == (0, 5e-4)
+    assert (drawn.request.seed, drawn.request.dt_s) == (3, 1e-3)
+    assert (halved.request.seed, halved.request.dt_s) == (0, 5e-4)
     kinds, stepped = ({unit.experiment for unit in plan.units} for plan in (drawn, halved))
     assert {"free-body", "arm", "jacobians", "probes", "traces", "robustness"} == kinds
     assert stepped == kinds - {"jacobians"} | {"boundaries", "contact"}

@@ -10,13 +10,12 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 
 import tasks
 from bench.engines.counting.counted import OPERATIONS
-from bench.experiments.tables import read
+from bench.experiments.tables.run import FREE_BODY, Run
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims import side_by_side
 from bench.findings.claims.contact import FLOORS, PERFORMANCE
 from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, INVERSES, ON_MATRIX, words
 from bench.findings.claims.euler_jacobian import DIFFERENCED, EPS
-from bench.findings.claims.tables import Results
 from bench.findings.theory.compliance_theory import compliance, free
 from bench.law.contenders.registry import representation
 from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM, hybrid
@@ -42,9 +41,9 @@ def probed(probe: str, numbers: dict, **words) -> list[dict]:
 @functools.cache
 def reference() -> Frames:
     """The committed run of the quick suite, which `make gate` holds to today's code: the paper's laws, free body."""
-    run, found = Results(RESULTS / "reference"), {}
+    run, found = Run(RESULTS / "reference"), {}
     for name in ("episodes", "costs", "traces", "boundaries"):
-        frame = run.table(name, **read.FREE_BODY)
+        frame = run.table(name, **FREE_BODY)
         found[name] = frame if name == "costs" else frame[frame["regulator"].isin(LAWS)]
     found["probes"] = run.table("probes")
     return found | {"timings": run.timings(), "map": pd.DataFrame(), "counted": pd.DataFrame(_spun())}
@@ -262,10 +261,10 @@ TABLES |= {f"C{i:02d}": reference for i in (*range(1, 18), *range(28, 46))}
 @functools.cache
 def of_sliding() -> Frames:
     """Rows of the committed run about the law of Lopez and Slotine, and what its episodes give by theory."""
-    run, found = Results(RESULTS / "reference"), {}
+    run, found = Run(RESULTS / "reference"), {}
     laws = ("sliding", "sliding-memory", "rotation-matrix", "feedback-linearized")
     for name in ("episodes", "robustness", "command-field"):
-        frame = run.table(name, **(read.FREE_BODY if name != "robustness" else {}))
+        frame = run.table(name, **(FREE_BODY if name != "robustness" else {}))
         found[name] = frame[frame["regulator"].isin(laws)]
     found["probes"] = run.table("probes")
     return found

@@ -22,8 +22,8 @@ from pathlib import Path
 from bench.base.errors import BadResults
 from bench.base.files import write_atomically
 from bench.experiments import boundaries, plan, traces
-from bench.experiments.choice import Choice
 from bench.experiments.experiment import Unit, experiment_of
+from bench.experiments.request import Request
 from bench.experiments.tables.packed import pack, unpack
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import Gains
@@ -39,8 +39,18 @@ AGAIN, REFUSED, HARMLESS, SILENT = "run again", "refused", "harmless", "silent"
 
 def plan_of(kp: float) -> plan.Plan:
     """Return a small plan of one law on the free body with curves, boundaries and costs."""
-    law, choice = find_contender("rotation-matrix"), Choice(("free-body",), ("paper", "tumbling"), ("ideal-rk4",))
-    made = plan.make("quick", [law], choice, count=3, horizon_s=0.25, gains=Gains(kp, 20.0))
+    law = find_contender("rotation-matrix")
+    request = Request(
+        "quick",
+        (law,),
+        Gains(kp, 20.0),
+        count=3,
+        horizon_s=0.25,
+        tasks=("free-body",),
+        start_sets=("paper", "tumbling"),
+        engines=("ideal-rk4",),
+    )
+    made = plan.make(request)
     units = [unit for unit in made.of("free-body", "costs") if unit.contender == law.name]
     return dataclasses.replace(made, units=(*units, traces.of_law(law, 2), boundaries.of_law(law, 2)))
 

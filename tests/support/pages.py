@@ -5,9 +5,10 @@ import importlib
 import re
 from typing import Any
 
+from bench.experiments.tables.run import run_in
 from bench.experiments.tables.schema import RESULTS
 from report.figures.kit import style
-from report.figures.kit.page import ABSENT, contents, run_in, text_of
+from report.figures.kit.page import ABSENT, contents, text_of
 
 RUN = run_in(RESULTS / "reference")
 """The published run."""

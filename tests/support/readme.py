@@ -2,8 +2,9 @@
 
 import re
 
+from bench.experiments.tables.run import Run
 from bench.findings.answer import find_answer
-from bench.findings.claims import Results, format_tally, judge_possible
+from bench.findings.claims import format_tally, judge_possible
 from bench.findings.conclusions import conclude
 from bench.findings.selection.robots import RUN
 
@@ -21,7 +22,7 @@ NEEDS = ("default", "weak-motors", "no-memory", "arm")
 
 def list_conclusions() -> list[str]:
     """Return a row of Markdown for each conclusion shown: his words, the verdict, the finding's first sentence."""
-    conclusions = {conclusion.name: conclusion for conclusion in conclude(Results(RUN))}
+    conclusions = {conclusion.name: conclusion for conclusion in conclude(Run(RUN))}
     rows = []
     for name, title in CONCLUSIONS.items():
         conclusion = conclusions[name]
@@ -34,7 +35,7 @@ def list_conclusions() -> list[str]:
 
 def count_claims() -> str:
     """Return the sentence that counts the verdicts on all claims."""
-    verdicts, _ = judge_possible(Results(RUN))
+    verdicts, _ = judge_possible(Run(RUN))
     words = format_tally(verdict.word for verdict in verdicts)
     return f"Of his {len(verdicts)} claims that can be checked, {words}."
 

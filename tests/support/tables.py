@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
 from bench.findings.claims.euler_jacobian import EPS, WELL_CONDITIONED
-from bench.findings.claims.tables import Results
 from support.claim_tables import YIELDS
 
 NO_TIMINGS = Path("no-such-folder")
@@ -17,7 +17,7 @@ NO_TIMINGS = Path("no-such-folder")
 
 def judged(id: str, others=None, **tables: pd.DataFrame):
     """The verdict on these tables, and runs at other gains; nothing was timed but what is among them."""
-    return claims.judge(id, Results(None, tables, NO_TIMINGS, others=others))
+    return claims.judge(id, Run(None, tables, NO_TIMINGS, others=others))
 
 
 def decided(verdict, word) -> bool:

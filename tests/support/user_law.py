@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from bench.experiments import plan
-from bench.experiments.choice import Choice
+from bench.experiments.request import Request
 from bench.law.contenders.described_law import described
 from bench.law.contenders.registry import contenders_of, find_contender
 
@@ -40,5 +40,14 @@ def plan_of(folder: Path, body: str, *, engine: str) -> plan.Plan:
     path = folder / "mine.py"
     path.write_text(spring_text(body, name="mine"))
     laws = [find_contender("rotation-matrix"), *contenders_of(described(path))]
-    choice = Choice(("free-body",), ("uniform",), (engine,), experiments=("free-body",))
-    return plan.make("quick", laws, choice, count=4, horizon_s=0.05)
+    request = Request(
+        "quick",
+        tuple(laws),
+        count=4,
+        horizon_s=0.05,
+        tasks=("free-body",),
+        start_sets=("uniform",),
+        engines=(engine,),
+        experiments=("free-body",),
+    )
+    return plan.make(request)

@@ -12,7 +12,8 @@ from support.on_arms import named
 import tasks
 from bench.engines.simulate_arms import run_arm as run
 from bench.experiments.episode_rows import frame
-from bench.experiments.experiment import Settings, Unit
+from bench.experiments.experiment import Unit
+from bench.experiments.request import Request
 from bench.experiments.suites import NOMINAL
 from tasks import verdict as judge
 from tasks.cause import CAUSES, NEAR_CONDITION, NEAR_MARGIN, cause
@@ -192,7 +193,7 @@ def rows_of(word: str, starts, horizon_s: float = 3.0, engine: str = "native"):
     one = named(ARM, word)
     unit = Unit("arm", one.name, "arm-regulation", ARM, engine, "clear", NOMINAL, horizon_s=horizon_s)
     numbers = run(engine, one, unit.task, ARM, starts, settings(horizon_s=horizon_s), ARM_METRICS)
-    return frame(Settings(), unit, starts, numbers)
+    return frame(Request(), unit, starts, numbers)
 
 
 def test_condition_of_a_row_is_the_judges_largest_along_the_way():

@@ -7,7 +7,7 @@ import rich_click as click
 from scipy.stats import binomtest
 
 from bench.experiments.suites import IDEAL_MOTORS, NOMINAL
-from bench.experiments.tables import read as results
+from bench.experiments.tables.run import with_contender
 from tasks.cause import CAUSES
 from tasks.verdict import CRASHED, OUTCOMES
 
@@ -33,7 +33,7 @@ def seconds(rows: pd.DataFrame) -> dict[str, str]:
 
 def tabulate(rows: pd.DataFrame, describe: Callable[[pd.DataFrame], dict], head: str = "controller") -> pd.DataFrame:
     """Return a line for each law or controller: its name, and what describe(its rows) returns by column."""
-    named = results.with_contender(rows).groupby("contender", observed=True, sort=False)
+    named = with_contender(rows).groupby("contender", observed=True, sort=False)
     return pd.DataFrame([{head: str(name), **describe(own)} for name, own in named])
 
 
@@ -102,7 +102,7 @@ def of_laws(rows: pd.DataFrame, folder: str, words: tuple[str, ...]) -> pd.DataF
     """Return the rows of the laws: by regulator, with its representation, or with its Jacobian and inverse too."""
     if not words:
         return rows
-    named = results.with_contender(rows)
+    named = with_contender(rows)
     law = named["contender"].astype(str)
     names = pd.DataFrame({"regulator": named["regulator"].astype(str), "law": law.str.partition("@")[0], "whole": law})
     for word in words:
@@ -116,7 +116,7 @@ def outcome_table(episodes: pd.DataFrame) -> pd.DataFrame:
     """One line for each start set and law: counts of outcomes, then median and worst settling time [s]."""
     varies = "variation" in episodes and (episodes["variation"] != NOMINAL).any()
     keys = ["start_set", "variation", "law"] if varies else ["start_set", "law"]
-    named = results.with_contender(episodes).rename(columns={"contender": "law"})
+    named = with_contender(episodes).rename(columns={"contender": "law"})
     grouped = named.groupby(keys, observed=True, sort=False)
     usual = [word for code, word in enumerate(OUTCOMES) if code < CRASHED or (episodes["outcome"] == word).any()]
     counts = grouped["outcome"].value_counts().unstack(fill_value=0).reindex(columns=usual, fill_value=0)

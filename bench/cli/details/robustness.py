@@ -7,7 +7,7 @@ import pandas as pd
 
 import tasks
 from bench.cli.details.episodes import OF_STARTS, settled
-from bench.experiments.tables import read as results
+from bench.experiments.tables.run import with_contender
 from bench.findings.perturbed import WITHSTANDS, by_level, thresholds
 from bench.findings.theory.thresholds import HALF_TURN, least, near_goal
 
@@ -30,7 +30,7 @@ def tables(rows: pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
     yield title, table.drop(columns=alike)
     axes = sorted(rows["axis"].unique())
     for axis in axes if len(axes) <= FEW else ():
-        own = results.with_contender(by_level(rows[rows["axis"] == axis])).astype({"contender": str})
+        own = with_contender(by_level(rows[rows["axis"] == axis])).astype({"contender": str})
         cells = own.assign(well=own["good"].astype(str) + "/" + own["starts"].astype(str))
         shown = cells.pivot(index="contender", columns="level", values="well").rename(columns="{:g}".format)
         shown = shown.loc[own["contender"].unique()].rename_axis("law").rename_axis(None, axis=1).reset_index()
@@ -39,9 +39,9 @@ def tables(rows: pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
 
 def summary(rows: pd.DataFrame) -> pd.DataFrame:
     """One line for each law and one of theory near the goal: a threshold for each way, theory's at 180° beside it."""
-    named = results.with_contender(rows)
+    named = with_contender(rows)
     kp, kv = float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0])
-    found = thresholds(results.with_contender(by_level(named)))
+    found = thresholds(with_contender(by_level(named)))
     tried = list(dict.fromkeys(way for own in found.values() for way in own))
     theory = {"law": NEAR, "settled": ""}
     theory |= {way.name: form(near_goal(way.axis, way.grows, kp, kv)) for way in tried}

@@ -7,7 +7,7 @@ import pandas as pd
 from bench.cli.paragraphs import Paragraph, listed
 from bench.cli.screen import counted
 from bench.experiments.suites import IDEAL_MOTORS, NOMINAL
-from bench.findings.claims import Results
+from bench.experiments.tables.run import Run
 
 WORST = 2
 """Laws that are named of those that crashed or hung."""
@@ -15,10 +15,10 @@ WORST = 2
 LOST = ("crashed", "hung")
 
 
-def paragraph(results: Results) -> Paragraph:
+def paragraph(run: Run) -> Paragraph:
     """Return a line or two for each part that the run has."""
     episodes, contact, robustness = (
-        results.table(name) for name in ("episodes", "compliance", "robustness")
+        run.table(name) for name in ("episodes", "compliance", "robustness")
     )
     on_arm, plant = episodes["arm"] != "", episodes["variation"].astype(str)
     is_other = ~plant.isin((NOMINAL, IDEAL_MOTORS))

@@ -8,18 +8,11 @@ import numpy as np
 import pandas as pd
 
 from bench.cli.summary.lines import HEAD, write_percent, write_seconds
-from bench.experiments.tables.read import FREE_BODY, converged
+from bench.experiments.tables.run import FREE_BODY, MAIN_ENGINE, Run, converged
 from bench.experiments.tables.statistics import quantile
 from bench.findings.answer import attribute
-from bench.findings.claims import Results
 from bench.findings.claims.adequacy import tallied
-from bench.findings.claims.tables import (
-    CHECK_ENGINES,
-    MAIN_ENGINE,
-    settled,
-    settling_times,
-    share,
-)
+from bench.findings.claims.tables import CHECK_ENGINES, settled, settling_times, share
 from bench.findings.failure_places import describe_failures, least_trapping_noise
 from bench.findings.perturbed import DETOUR
 from bench.findings.replication import AT_REST, NEARLY_ALL
@@ -63,9 +56,9 @@ class Row(NamedTuple):
     effort: float
 
 
-def list_laws(results: Results) -> list[str]:
+def list_laws(run: Run) -> list[str]:
     """Return the laws of the free body in a run, in the order of its rows."""
-    rows = results.table("episodes", **FREE_BODY, task="free-body")
+    rows = run.table("episodes", **FREE_BODY, task="free-body")
     return [str(law) for law in rows["contender"].unique()]
 
 
@@ -74,9 +67,9 @@ def name_law(law: str) -> str:
     return law.removesuffix(f"/{papers_coordinates().name}")
 
 
-def measure_law(results: Results, law: str) -> Row:
+def measure_law(run: Run, law: str) -> Row:
     """Return the row of a law that is in the run."""
-    rows = results.table("episodes", **FREE_BODY, task="free-body")
+    rows = run.table("episodes", **FREE_BODY, task="free-body")
     rows = rows[rows["contender"].astype(str) == law]
     engine = next(
         name
@@ -87,7 +80,7 @@ def measure_law(results: Results, law: str) -> Row:
     at_rest = rows[rows["start_set"].isin(AT_REST)]
     uniform = rows[rows["start_set"] == "uniform"]
     timed = uniform if len(uniform) else rows
-    noise = least_trapping_noise(results, law)
+    noise = least_trapping_noise(run, law)
     return Row(
         law,
         engine,
@@ -96,8 +89,8 @@ def measure_law(results: Results, law: str) -> Row:
         _find_times(timed),
         tuple(_list_failures(at_rest, noise)),
         noise,
-        _count_operations(results, law),
-        _find_nanoseconds(results, law),
+        _count_operations(run, law),
+        _find_nanoseconds(run, law),
         float(timed["peak_u"].max()),
         float(timed["effort"].median()),
     )
@@ -133,9 +126,9 @@ def _list_failures(at_rest: pd.DataFrame, noise: float | None) -> Iterator[str]:
         yield UNWINDS if is_long else NONE_FOUND
 
 
-def _count_operations(results: Results, law: str) -> tuple[int, int] | None:
+def _count_operations(run: Run, law: str) -> tuple[int, int] | None:
     """Return flops and calls of a typical step, the goal given as a matrix; None if the run did not count them."""
-    costs = results.table("costs", **FREE_BODY, branch="typical")
+    costs = run.table("costs", **FREE_BODY, branch="typical")
     costs = costs[costs["contender"].astype(str) == law]
     if costs.empty:
         return None
@@ -143,9 +136,9 @@ def _count_operations(results: Results, law: str) -> tuple[int, int] | None:
     return spent.flops, spent.calls
 
 
-def _find_nanoseconds(results: Results, law: str) -> float:
+def _find_nanoseconds(run: Run, law: str) -> float:
     """Return the time of a step, the median over the machines that were timed; NaN if none timed the law."""
-    timings = results.timings()
+    timings = run.timings()
     return (
         float(np.median(own))
         if len(own := timings.loc[timings["contender"] == law, "ns_per_tick"])
@@ -232,7 +225,7 @@ def format_groups(rows: Sequence[Row]) -> Iterator[str]:
                 yield from format_row(row)
 
 
-def describe_columns(rows: Sequence[Row], results: Results) -> list[str]:
+def describe_columns(rows: Sequence[Row], run: Run) -> list[str]:
     """Say what the columns are, of how many starts, and what was not tested."""
     counts = sorted({row.starts for row in rows}, reverse=True)
     starts = " or ".join(f"{count:,}" for count in counts)
@@ -244,7 +237,7 @@ def describe_columns(rows: Sequence[Row], results: Results) -> list[str]:
         notes.append(f"{TRAPPED}: a sensor error of {least:g} rad holds it at 180 deg.")
     if any(NOT_TRIED in place for row in rows for place in _list_places(row)):
         notes.append(f"{NOT_TRIED} sensor noise at 180 deg was not tested in this run.")
-    notes.append(_describe_costs(rows, results))
+    notes.append(_describe_costs(rows, run))
     engines = sorted({row.engine for row in rows} - {MAIN_ENGINE})
     if engines:
         which = [name_law(row.law) for row in rows if row.engine != MAIN_ENGINE]
@@ -252,8 +245,8 @@ def describe_columns(rows: Sequence[Row], results: Results) -> list[str]:
     return notes
 
 
-def _describe_costs(rows: Sequence[Row], results: Results) -> str:
-    timings = results.timings()
+def _describe_costs(rows: Sequence[Row], run: Run) -> str:
+    timings = run.timings()
     machines = (
         ", ".join(sorted(set(timings["machine"].astype(str)))) if len(timings) else ""
     )

@@ -2,29 +2,29 @@
 
 from collections import Counter
 
-from bench.base.errors import NoTable
+from bench.base.errors import NoEvidence, NoTable
 from bench.cli.progress import progress
 from bench.cli.summary.lines import ABOUT, HEAD, print_text, write_percent, write_ratio
+from bench.experiments.tables.run import MAIN_ENGINE, Run
 from bench.findings import replication
-from bench.findings.claims import Results, judge_possible
+from bench.findings.claims import judge_possible
 from bench.findings.claims.adequacy import THREE, tallied
 from bench.findings.claims.controller_costs import BY_EULER, ON_MATRIX, controller_costs
-from bench.findings.claims.tables import MAIN_ENGINE
-from bench.findings.claims.verdict import NoEvidence, Word
+from bench.findings.claims.verdict import Word
 
 SIX_JOINTS = 6
 
 
-def holds_papers_laws(results: Results) -> bool:
+def holds_papers_laws(run: Run) -> bool:
     """Tell whether a run has the paper's three laws from uniform starts on the continuous plant."""
-    rows = results.table("episodes", engine=MAIN_ENGINE, start_set="uniform", arm="")
+    rows = run.table("episodes", engine=MAIN_ENGINE, start_set="uniform", arm="")
     return set(THREE) <= set(rows["contender"].astype(str))
 
 
-def compare_jacobians(results: Results) -> list[str]:
+def compare_jacobians(run: Run) -> list[str]:
     """Return the lines of both Jacobians past gimbal lock; none where a run has no such moves of arms."""
     try:
-        both = replication.compare_jacobians(results)
+        both = replication.compare_jacobians(run)
     except (NoEvidence, NoTable):
         return []
     head = f"Jacobian, {both.arms} arm{'s' * (both.arms > 1)}"
@@ -38,49 +38,49 @@ def compare_jacobians(results: Results) -> list[str]:
     ):
         count = f"{failed or 'none'} of {both.moves} moves"
         lines.append(
-            f"{name:{HEAD}} {count:24} {torque:24} {_count(results, controller):>7}"
+            f"{name:{HEAD}} {count:24} {torque:24} {_count(run, controller):>7}"
         )
     return lines
 
 
-def _count(results: Results, controller: str) -> str:
+def _count(run: Run, controller: str) -> str:
     """Write the flops and calls of a whole controller's step on six joints; a dash where they were not counted."""
     try:
         flops, calls = tallied(
-            controller_costs(results, controller, SIX_JOINTS), with_goal=True
+            controller_costs(run, controller, SIX_JOINTS), with_goal=True
         )
     except (NoEvidence, NoTable):
         return "-"
     return f"{flops}+{calls}" if calls else str(flops)
 
 
-def compare_compliance(results: Results) -> list[str]:
+def compare_compliance(run: Run) -> list[str]:
     """Return a sentence about two compliant axes and one about one; none where a run has no such poses."""
     sentences = []
     for describe in (_describe_two_axes, _describe_one_axis):
         try:
-            sentences.append(describe(results))
+            sentences.append(describe(run))
         except (NoEvidence, NoTable):
             continue
     return sentences
 
 
-def _describe_two_axes(results: Results) -> str:
-    wrong = replication.measure_wrong_axis(results)
+def _describe_two_axes(run: Run) -> str:
+    wrong = replication.measure_wrong_axis(run)
     arms = f"{len(wrong.off)} arm{'s' * (len(wrong.off) > 1)}: {wrong.off[0]:.0f}-{wrong.off[-1]:.0f}"
     return f"Euler, two axes: turns {wrong.middle:.0f} deg off at beta = {wrong.tilt_deg:.0f} deg ({arms})"
 
 
-def _describe_one_axis(results: Results) -> str:
-    same = replication.count_single_axes(results)
+def _describe_one_axis(run: Run) -> str:
+    same = replication.count_single_axes(run)
     ends = f"{write_percent(same.low)}-{write_percent(same.high)}"
     return f"Euler, one axis: right axis at {same.k} of {same.n} poses, {write_percent(same.value)} % ({ends})"
 
 
-def print_verdicts(results: Results) -> None:
+def print_verdicts(run: Run) -> None:
     """Print how many claims have each word; it may take half a minute, once a run."""
     with progress("claims", "judging the paper's claims"):
-        sentence = count_verdicts(results)
+        sentence = count_verdicts(run)
     print_text("His claims", sentence, indent=ABOUT)
 
 
@@ -100,9 +100,9 @@ IN_SHORT = {
 """A word after 1, and after other numbers."""
 
 
-def count_verdicts(results: Results) -> str:
+def count_verdicts(run: Run) -> str:
     """Say how many claims got each word, and how many cannot be judged."""
-    decided, lacks = judge_possible(results)
+    decided, lacks = judge_possible(run)
     every = len(decided) + len(lacks)
     if not decided:
         return f"None of the paper's {every} claims can be judged from this run."

@@ -8,8 +8,8 @@ from bench.cli.details import PARTS
 from bench.cli.screen import counted
 from bench.cli.summary.lines import write_ratio, write_seconds
 from bench.experiments.suites import IDEAL_MOTORS, NOMINAL
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.statistics import quantile
-from bench.findings.claims import Results
 from bench.findings.claims.tables import settled, settling_times
 from bench.findings.replication import NEARLY_ALL
 
@@ -26,23 +26,23 @@ CONTROLLER = 42
 """Width of the name of a controller."""
 
 
-def list_parts(results: Results) -> list[str]:
+def list_parts(run: Run) -> list[str]:
     """Return the parts of a run, as `show` names them, that have rows."""
-    episodes = results.table("episodes")
+    episodes = run.table("episodes")
     has = {
         "free-body": (episodes["arm"] == "").any(),
         "arms": (episodes["arm"] != "").any(),
     }
     has |= {
-        "contact": len(results.table("compliance")),
-        "robustness": len(results.table("robustness")),
+        "contact": len(run.table("compliance")),
+        "robustness": len(run.table("robustness")),
     }
     return [part for part in PARTS if has[part]]
 
 
-def describe_arms(results: Results, most: int) -> Iterator[str]:
+def describe_arms(run: Run, most: int) -> Iterator[str]:
     """Yield a table of so many controllers of arms, for the plant as it is and with ideal motors."""
-    episodes = results.table("episodes")
+    episodes = run.table("episodes")
     rows = episodes[episodes["arm"] != ""]
     variation = rows["variation"].astype(str)
     plants = {
@@ -85,9 +85,9 @@ def _list_controllers(rows: pd.DataFrame, most: int) -> Iterator[str]:
         yield f"and {counted(len(ranked) - most, 'controller')} more"
 
 
-def describe_contact(results: Results) -> Iterator[str]:
+def describe_contact(run: Run) -> Iterator[str]:
     """Yield a line a task: at how many poses each controller does it."""
-    rows = results.table("compliance")
+    rows = run.table("compliance")
     for task, own in rows.groupby("task", observed=True, sort=False):
         done = (
             (own["outcome"] == "done")
@@ -105,11 +105,11 @@ def describe_contact(results: Results) -> Iterator[str]:
         yield f"{task}, done: {', '.join(cells[:OF_TASK] + more)}"
 
 
-def describe_robustness(results: Results) -> Iterator[str]:
+def describe_robustness(run: Run) -> Iterator[str]:
     """Yield a line a perturbation of few: up to which level each law withstands it; of many, how many there are."""
     from bench.cli.details import robustness  # its closed forms take a second to import
 
-    rows = results.table("robustness")
+    rows = run.table("robustness")
     axes = sorted(rows["axis"].astype(str).unique())
     if len(axes) > AXES:
         yield f"{counted(len(axes), 'perturbation')} of {counted(rows['contender'].nunique(), 'law')}"

@@ -19,7 +19,8 @@ import tasks
 from bench.base.on_first_use import pd
 from bench.experiments import arm as arms
 from bench.experiments.columns import read_table
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import Experiment, Unit
+from bench.experiments.request import Request
 from bench.law.chain import Chain
 from bench.law.contenders.registry import contenders, papers_coordinates
 from bench.law.kinds import Coordinates
@@ -45,10 +46,10 @@ JUMP = 1.0
 """rad: a change of coordinates over one step that is none of the motion's but a wrap."""
 
 
-def units(asked: Asked) -> tuple[Unit, ...]:
+def units(request: Request) -> tuple[Unit, ...]:
     """Return a unit for each arm that episodes are run on; `count` random poses."""
-    count = asked.suite.on_arms.poses
-    names = dict.fromkeys(unit.arm for unit in arms.units(asked) if count)
+    count = request.section("jacobians")["poses"]
+    names = dict.fromkeys(unit.arm for unit in arms.units(request) if count)
     return tuple(of_arm(name, count) for name in names)
 
 
@@ -57,13 +58,13 @@ def of_arm(name: str, count: int) -> Unit:
     return Unit("jacobians", arm=name, count=count, total=count)
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+def rows(request: Request, unit: Unit) -> pd.DataFrame:
     """Return one row a pose and representation."""
     from bench.experiments.jacobians.pose_sets import poses
     from tasks.kinematics import Kinematics
 
     arm = tasks.arm(unit.arm)
-    kin, chosen = Kinematics(arm), poses(arm, unit.count, settings.seed)
+    kin, chosen = Kinematics(arm), poses(arm, unit.count, request.seed)
     with np.errstate(all="ignore"):
         chains, Js = zip(*(look(kin, pose.q) for pose in chosen), strict=True)
         ours = filled("geometric", None, chains, chains)

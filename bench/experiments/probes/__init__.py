@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 from bench.experiments import arm as on_arms
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import Experiment, Unit
 from bench.experiments.probes import (
     arms,
     commands,
@@ -21,19 +21,20 @@ from bench.experiments.probes import (
     variables,
 )
 from bench.experiments.probes.number import Number
+from bench.experiments.request import Request
 
 
 class Probe(NamedTuple):
     """What measures one thing.
 
     Attributes:
-        measure: (settings, unit) -> its numbers.
+        measure: (request, unit) -> its numbers.
         cost_s: CPU seconds that it usually takes, on each arm if it is of arms.
         arms: The arms that it runs on; None if it is of no arm; empty for those of the suite.
         needs_real_poles: Whether it needs gains with real poles.
     """
 
-    measure: Callable[[Settings, Unit], Iterable[Number]]
+    measure: Callable[[Request, Unit], Iterable[Number]]
     cost_s: float = 0.2
     arms: tuple[str, ...] | None = None
     needs_real_poles: bool = False
@@ -81,12 +82,12 @@ PROBES = {
 """Every probe by its word."""
 
 
-def units(asked: Asked) -> tuple[Unit, ...]:
+def units(request: Request) -> tuple[Unit, ...]:
     """Return a unit a probe, of arms one on each arm."""
     of_suite = tuple(
-        dict.fromkeys(unit.arm for unit in on_arms.units(asked))
+        dict.fromkeys(unit.arm for unit in on_arms.units(request))
     )
-    has_real_poles = sliding.has_sliding_variable(asked.gains)
+    has_real_poles = sliding.has_sliding_variable(request.gains)
     found = []
     for word, probe in PROBES.items():
         if probe.needs_real_poles and not has_real_poles:
@@ -96,11 +97,11 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     return tuple(found)
 
 
-def rows(settings: Settings, unit: Unit) -> list[dict]:
+def rows(request: Request, unit: Unit) -> list[dict]:
     """Return a row a number."""
     found = []
-    for number in PROBES[unit.selector].measure(settings, unit):
-        gains = number.gains or settings.gains
+    for number in PROBES[unit.selector].measure(request, unit):
+        gains = number.gains or request.gains
         found.append(
             {
                 "probe": unit.selector,

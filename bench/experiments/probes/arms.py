@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,9 +14,10 @@ import tasks
 from bench.base.on_first_use import pd
 from bench.experiments import traces
 from bench.experiments.episodes import rows_from
-from bench.experiments.experiment import Settings, Unit
+from bench.experiments.experiment import Unit
 from bench.experiments.kept_rows import kept
 from bench.experiments.probes.number import Number
+from bench.experiments.request import Request
 from bench.experiments.suites import IDEAL_MOTORS, ON_ARM
 from bench.law.contenders.registry import representation
 from bench.law.control.contact_controller import PAPERS_FORM
@@ -72,14 +74,14 @@ def euler_angles(R: Rotation) -> tuple:
 
 
 def curves(
-    name: str, arm: str, settings: Settings, dt_s: float, count: int
+    name: str, arm: str, request: Request, dt_s: float, count: int
 ) -> pd.DataFrame:
     """Return traces from the first clear starts of an arm, and their departure from the linear response.
 
     A row a sample: start_id, time_s, position_error_m, bend_0 to bend_2 (E less E_d + (E_0 - E_d) x(t)) [rad].
     """
     unit = traces.of_arm(name, TASK, arm, count, CLEAR)
-    frame = traces.rows(settings._replace(dt_s=dt_s, seed=0), unit)
+    frame = traces.rows(replace(request, dt_s=dt_s, seed=0), unit)
     goals = {
         start.id: start.goal_wxyz
         for start in tasks.start_set(CLEAR, count, 0, arm=arm)
@@ -98,7 +100,7 @@ def curves(
         )
         E_d = np.array(euler_angles(from_quaternion(goals[str(start_id)])))
         response = linear_response(
-            curve["time_s"].to_numpy(), settings.gains
+            curve["time_s"].to_numpy(), request.gains
         )
         part = curve[["start_id", "time_s", "position_error_m"]].copy()
         part[list(BENDS)] = E - (E_d + (E[0] - E_d) * response[:, None])
@@ -114,16 +116,16 @@ def largest(frame: pd.DataFrame) -> float:
     )
 
 
-def measure_curves(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_curves(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield how far the angles are from linear ones, at the run's step, at half of it, and extrapolated to step zero.
 
     At step zero (Richardson, of first order) also how far the position is from its goal.
     """
     name = controller(BY_EULER, unit.arm)
-    words = settings.contender(name).words
+    words = request.contender(name).words
     full, half = (
-        curves(name, unit.arm, settings, dt_s, CURVES)
-        for dt_s in (settings.dt_s, settings.dt_s / 2)
+        curves(name, unit.arm, request, dt_s, CURVES)
+        for dt_s in (request.dt_s, request.dt_s / 2)
     )
     both = full.merge(
         half, on=["start_id", "time_s"], suffixes=("", "_half")
@@ -151,7 +153,7 @@ def measure_curves(settings: Settings, unit: Unit) -> Iterator[Number]:
 
 
 def episodes_at_poles(
-    name: str, arm: str, settings: Settings
+    name: str, arm: str, request: Request
 ) -> pd.DataFrame:
     """Return episodes from rest at 10^-2 from a pole or nearer, to the pose of their family at 10^-1.
 
@@ -161,7 +163,7 @@ def episodes_at_poles(
     from tasks.kinematics import kinematics
 
     judge = kinematics(tasks.arm(arm))
-    poses = {pose.id: pose.q for pose in pole(judge, settings.seed)}
+    poses = {pose.id: pose.q for pose in pole(judge, request.seed)}
     goals, starts = {}, []
     for name_of_pose, q in poses.items():
         if name_of_pose.endswith("-1e-01"):
@@ -185,15 +187,15 @@ def episodes_at_poles(
         count=len(starts),
         horizon_s=ON_ARM,
     )
-    return rows_from(settings, unit, starts)
+    return rows_from(request, unit, starts)
 
 
-def measure_poles(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_poles(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield the peak torque of episodes that start beside poles, by both controllers."""
     for one in (BY_EULER, ON_MATRIX):
         name = controller(one, unit.arm)
-        words = settings.contender(name).words
-        for row in episodes_at_poles(name, unit.arm, settings).to_dict(
+        words = request.contender(name).words
+        for row in episodes_at_poles(name, unit.arm, request).to_dict(
             "records"
         ):
             case, outcome = row["start_id"], row["outcome"]
@@ -207,7 +209,7 @@ def measure_poles(settings: Settings, unit: Unit) -> Iterator[Number]:
 
 
 def measure_accelerations(
-    settings: Settings, unit: Unit
+    request: Request, unit: Unit
 ) -> Iterator[Number]:
     """Yield |xddot - u| / |u| under (2.2) at random states; at: masses of the plant over those of the model."""
     for factor, variation in (
@@ -215,7 +217,7 @@ def measure_accelerations(
         (float(OFF.partition("-")[2]), OFF),
     ):
         for k, gap in enumerate(
-            accelerations(unit.arm, variation, settings.seed)
+            accelerations(unit.arm, variation, request.seed)
         ):
             yield Number("acceleration_gap", gap, f"state-{k:02d}", factor)
 
@@ -277,7 +279,7 @@ def hand_acceleration(
 
 
 def measure_contact_costs(
-    settings: Settings, unit: Unit
+    request: Request, unit: Unit
 ) -> Iterator[Number]:
     """Yield flops and calls of a typical control period in contact; at: the number of joints."""
     for name in IN_CONTACT:

@@ -14,10 +14,11 @@ from typing import Any
 import numpy as np
 
 import tasks
-from bench.experiments.experiment import Settings, Unit
+from bench.experiments.experiment import Unit
 from bench.experiments.probes.coordinates import euler_B
 from bench.experiments.probes.number import Number, in_coordinates
 from bench.experiments.probes.turns import FEEDBACK, MATRIX, about
+from bench.experiments.request import Request
 from bench.law.contenders.registry import find_contender, representation
 from bench.law.inputs import AT_REST, PAPERS_GAINS, Gains, Goal
 from bench.law.so3 import IDENTITY, Rotation, cross, from_quaternion
@@ -120,12 +121,12 @@ def largest_product(R: Rotation) -> float:
     )
 
 
-def starts(settings: Settings) -> list[Start]:
+def starts(request: Request) -> list[Start]:
     """Return every start that the suites have of the paper's laws, UNIFORM uniform ones."""
     found: list[Start] = []
     for name in START_SETS:
         found += tasks.start_set(
-            name, UNIFORM if name == "uniform" else None, settings.seed
+            name, UNIFORM if name == "uniform" else None, request.seed
         )
     return found
 
@@ -136,10 +137,10 @@ def is_exact_pole(R: Rotation) -> bool:
     return math.pi / 2 - abs(beta) <= EXACT_RAD
 
 
-def measure_errors(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_errors(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield |e|, the largest cross product, and the rounding of e at every start; at: the angle to the goal [rad]."""
     words = find_contender(MATRIX).words
-    for start in starts(settings):
+    for start in starts(request):
         R, R_d = (
             from_quaternion(start.quat_wxyz),
             from_quaternion(start.goal_wxyz),
@@ -173,7 +174,7 @@ def ratio(vector: Sequence[float]) -> float:
     return size(error(rotation_by(vector))) / math.sin(turn)
 
 
-def search_errors(settings: Settings, unit: Unit) -> Iterator[Number]:
+def search_errors(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield the lowest |e| over the sine of the angle that a search finds from each of some orientations."""
     from scipy.optimize import minimize
 
@@ -193,15 +194,15 @@ def search_errors(settings: Settings, unit: Unit) -> Iterator[Number]:
         )
 
 
-def measure_at_poles(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_at_poles(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield the commands at exact poles, at rest and spinning, and the largest element of B there."""
     words = find_contender(FEEDBACK).words
-    for start in tasks.start_set("poles", None, settings.seed):
+    for start in tasks.start_set("poles", None, request.seed):
         R = from_quaternion(start.quat_wxyz)
         if not is_exact_pole(R):
             continue
-        rest = command(FEEDBACK, R, gains=settings.gains)
-        spinning = command(FEEDBACK, R, SPIN, gains=settings.gains)
+        rest = command(FEEDBACK, R, gains=request.gains)
+        spinning = command(FEEDBACK, R, SPIN, gains=request.gains)
         yield Number("u_at_rest", size(rest), start.id, words=words)
         yield Number("u_spinning", size(spinning), start.id, words=words)
         yield Number(
@@ -212,7 +213,7 @@ def measure_at_poles(settings: Settings, unit: Unit) -> Iterator[Number]:
         )
 
 
-def measure_near_poles(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_near_poles(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield |u| of a spinning body near the poles; at: cos(beta)."""
     zyx, words = representation("zyx-euler"), find_contender(FEEDBACK).words
     low, high = GROWTH_DECADES
@@ -221,14 +222,14 @@ def measure_near_poles(settings: Settings, unit: Unit) -> Iterator[Number]:
     ):
         alpha, gamma = PAIRS[pair]
         R = zyx.to_matrix((alpha, sign * (math.pi / 2 - 10.0**-k), gamma))
-        u = command(FEEDBACK, R, SPIN, gains=settings.gains)
+        u = command(FEEDBACK, R, SPIN, gains=request.gains)
         case = f"{'plus' if sign > 0 else 'minus'}-1e-{k:02d}-{pair}"
         yield Number(
             "u_spinning", size(u), case, float(zyx.margin(R)), words=words
         )
 
 
-def measure_jumps(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_jumps(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield |change of u| as alpha, or gamma, passes 180°, from 1e-9 rad before it to 1e-9 rad behind."""
     to_matrix, words = (
         representation("zyx-euler").to_matrix,
@@ -246,7 +247,7 @@ def measure_jumps(settings: Settings, unit: Unit) -> Iterator[Number]:
                 )
                 ends.append(
                     command(
-                        FEEDBACK, to_matrix(angles), gains=settings.gains
+                        FEEDBACK, to_matrix(angles), gains=request.gains
                     )
                 )
             yield Number(
@@ -257,10 +258,10 @@ def measure_jumps(settings: Settings, unit: Unit) -> Iterator[Number]:
             )
 
 
-def measure_B(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_B(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield the largest element of B at every start, and its two least singular values at exact poles."""
     words = in_coordinates("zyx-euler")
-    for start in starts(settings):
+    for start in starts(request):
         R = from_quaternion(start.quat_wxyz)
         B = euler_B(R)
         yield Number(

@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 
 from bench.base.on_first_use import ScipyRotation
-from bench.experiments.experiment import Settings, Unit
+from bench.experiments.experiment import Unit
 from bench.experiments.probes.number import Number, in_coordinates
+from bench.experiments.request import Request
 from bench.law.contenders.registry import contenders, representation
 from bench.law.kinds import Coordinates
 from bench.law.so3 import Rotation, from_quaternion
@@ -142,7 +143,7 @@ def condition_near_zero(word: str, axis: np.ndarray, angle: float) -> float:
     )
 
 
-def measure_near_zero(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_near_zero(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield condition numbers of B of small rotations; at: the angle [rad]."""
     for k in range(DECADES[0], DECADES[1] + 1):
         for i, axis in enumerate(axes(DIRECTIONS)):
@@ -158,7 +159,7 @@ def measure_near_zero(settings: Settings, unit: Unit) -> Iterator[Number]:
                 )
 
 
-def measure_about_y(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_about_y(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield the least singular value of B after rotations about Y; at: degrees."""
     for degrees, quat in ABOUT_Y.items():
         words = in_coordinates(ZYX)
@@ -172,7 +173,7 @@ def measure_about_y(settings: Settings, unit: Unit) -> Iterator[Number]:
 
 
 def measure_moved_angles(
-    settings: Settings, unit: Unit
+    request: Request, unit: Unit
 ) -> Iterator[Number]:
     """Yield the largest change of R at a pole if alpha and gamma change; at: beta in degrees.
 
@@ -207,7 +208,7 @@ def random_orientations(count: int, seed: int) -> list[Rotation]:
 
 
 def measure_axes_of_angles(
-    settings: Settings, unit: Unit
+    request: Request, unit: Unit
 ) -> Iterator[Number]:
     """Yield how far the axis of alpha is from the base's z axis, and that of gamma from the hand's x axis."""
     words = in_coordinates(ZYX)
@@ -300,7 +301,7 @@ def balances(
         yield f"{place}-{k:04d}", balance(along, R, moment, rates)
 
 
-def measure_work(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_work(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield what `balance` finds of Z-Y-X angles, and the gap of power of every other representation."""
     anywhere = [(AT_RANDOM, R) for R in random_orientations(TURNS, SEED)]
     zyx = representation(ZYX)
@@ -322,7 +323,7 @@ def measure_work(settings: Settings, unit: Unit) -> Iterator[Number]:
                 )
 
 
-def measure_forms(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_forms(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield condition numbers of B of forms of Euler angles towards their poles; at: the distance [rad]."""
     outer = np.random.default_rng(0).uniform(-3.0, 3.0, (PAIRS, 2)).tolist()
     for form, at_pole in FORMS.items():
@@ -353,7 +354,7 @@ def angular_acceleration(
 
 
 def measure_linear_terms(
-    settings: Settings, unit: Unit
+    request: Request, unit: Unit
 ) -> Iterator[Number]:
     """Yield the derivatives of (2.11) at zero by angles, by rates and by u; case: by what, row and column."""
     h, names = LINEAR_STEP, ("angles", "rates", "input")

@@ -15,9 +15,10 @@ from bench.engines.curve import blank_curves
 from bench.engines.episode import Settings as Limits
 from bench.engines.metrics.registry import metrics_of
 from bench.experiments.episode_rows import judged_columns
-from bench.experiments.episodes import simulate
-from bench.experiments.experiment import Settings, Unit
+from bench.experiments.experiment import Unit
 from bench.experiments.probes.number import Number
+from bench.experiments.request import Request
+from bench.law.contender import Contender
 from bench.law.contenders.registry import find_contender, regulator
 from bench.law.inputs import Gains
 from bench.law.kinds import Law
@@ -88,28 +89,31 @@ def turn_about(
 
 def follow(law: Law, starts: list[Start], gains: Gains) -> SampledEpisodes:
     """Simulate starts of a law in continuous time."""
-    settings = Settings(gains=gains, own=(law,))
-    unit = Unit(
-        "free-body",
-        law.name,
-        "free-body",
-        engine="ideal-rk4",
-        count=len(starts),
-    )
+    from bench.engines.simulate import run
+
+    request = Request(gains=gains)
     curves = blank_curves(len(starts), SAMPLES)
-    simulate(settings, unit, starts, SAMPLES * settings.dt_s, curves)
+    run(
+        "ideal-rk4",
+        Contender(law),
+        "free-body",
+        starts,
+        request.limits(SAMPLES * request.dt_s),
+        metrics_of(on_arm=False),
+        curves=curves,
+    )
     samples = curves.samples
     chord = np.sqrt(np.minimum(1.0, samples[:, :, 16]))
     T = chord / (1.0 + np.sqrt(1.0 - chord**2))
     return SampledEpisodes(samples[:, :, 0], T, samples[:, :, 1:10])
 
 
-def measure_decay(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_decay(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield how far T is from T(0) exp(-lambda t/2) of bodies that start on s = 0; at: the first angle [degrees].
 
     Also the rate at which sin(theta/2) decays, at the beginning and at the end [1/s].
     """
-    gains, words = settings.gains, find_contender(LAW).words
+    gains, words = request.gains, find_contender(LAW).words
     surface, _ = rates_of(gains)
     places = [
         (angle, axis) for angle in ANGLES_DEG for axis in range(len(AXES))
@@ -140,7 +144,7 @@ def measure_decay(settings: Settings, unit: Unit) -> Iterator[Number]:
         )
 
 
-def measure_bound(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_bound(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield the greatest share of T in its bound, from uniform starts, 180° rotations and spinning bodies.
 
     T' <= -lambda T/2 + |s|/2 for T <= 1, and |s| <= |s(0)| exp(-K t), which a change of sign only makes less. So T is
@@ -149,8 +153,8 @@ def measure_bound(settings: Settings, unit: Unit) -> Iterator[Number]:
     """
     starts: list[Start] = []
     for name in ("uniform", "half-turn", "tumbling"):
-        starts += tasks.start_set(name, STARTS_OF_A_SET, settings.seed)
-    surface, _ = rates_of(settings.gains)
+        starts += tasks.start_set(name, STARTS_OF_A_SET, request.seed)
+    surface, _ = rates_of(request.gains)
     s = []
     for start in starts:
         s.append(
@@ -158,7 +162,7 @@ def measure_bound(settings: Settings, unit: Unit) -> Iterator[Number]:
                 np.array(start.omega) - surface * error_vector(start)
             )
         )
-    motion = follow(regulator(LAW), starts, settings.gains)
+    motion = follow(regulator(LAW), starts, request.gains)
     growth = 0.5 * np.array(s)[:, None] * motion.time
     bound = (motion.T[:, :1] + growth) * np.exp(
         -0.5 * surface * motion.time
@@ -169,7 +173,7 @@ def measure_bound(settings: Settings, unit: Unit) -> Iterator[Number]:
         yield Number("share_of_bound", share, start.id, words=words)
 
 
-def measure_frames(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_frames(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield how far motions of the law in the base frame and in the body frame differ at one time, at most [rad].
 
     From the same starts, at rest (uniform) and spinning (tumbling): of the angles to the goal, and of the orientations.
@@ -179,9 +183,9 @@ def measure_frames(settings: Settings, unit: Unit) -> Iterator[Number]:
 
     words = find_contender(LAW).words
     for name in ("uniform", "tumbling"):
-        starts = tasks.start_set(name, STARTS_OF_A_SET, settings.seed)
-        base = follow(regulator(LAW), starts, settings.gains)
-        body = follow(IN_BODY_FRAME, starts, settings.gains)
+        starts = tasks.start_set(name, STARTS_OF_A_SET, request.seed)
+        base = follow(regulator(LAW), starts, request.gains)
+        body = follow(IN_BODY_FRAME, starts, request.gains)
         gaps = np.nanmax(np.abs(base.angle - body.angle), axis=1)
         # The chord |R_1 - R_2| = sqrt(8) sin(angle/2) keeps its digits where the trace loses them.
         chords = np.nanmax(
@@ -195,17 +199,17 @@ def measure_frames(settings: Settings, unit: Unit) -> Iterator[Number]:
             )
 
 
-def measure_noise(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_noise(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield the noise of episodes from exact 180° rotations [rad] and how they end; at: the control period [s].
 
     In one control period the command 2 Kp turns a body at rest by Kp period^2: a smaller noise cannot turn it back.
     """
     for period_s in PERIODS_S:
-        yield from hold(settings, period_s, NOISE_SHARE)
+        yield from hold(request, period_s, NOISE_SHARE)
 
 
 def hold(
-    settings: Settings, period_s: float, share: float
+    request: Request, period_s: float, share: float
 ) -> Iterator[Number]:
     """Simulate exact 180° rotations with a noise of share Kp period^2, without memory and with it."""
     from bench.engines.simulate_bodies import run_disturbed
@@ -214,8 +218,8 @@ def hold(
         turn_about(axis, math.pi, f"axis-{i}")
         for i, axis in enumerate(AXES)
     ]
-    limits = Limits(settings.gains, 1e-6, round(1e6 * NOISE_S), 1)
-    noise = share * settings.gains.kp * period_s**2
+    limits = Limits(request.gains, 1e-6, round(1e6 * NOISE_S), 1)
+    noise = share * request.gains.kp * period_s**2
     condition = Condition(worst_attitude_error=noise, period_s=period_s)
     for law in (LAW, WITH_MEMORY):
         contender = find_contender(law)

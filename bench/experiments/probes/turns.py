@@ -13,8 +13,9 @@ import numpy as np
 
 from bench.base.on_first_use import ScipyRotation, pd
 from bench.experiments.episodes import prepare_law, rows_from
-from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.experiment import Unit, rows_of
 from bench.experiments.probes.number import Number
+from bench.experiments.request import Request
 from bench.experiments.suites import SHORT
 from bench.law.contenders.registry import representation
 from bench.law.inputs import Gains
@@ -96,7 +97,7 @@ def episodes(
         count=len(starts),
         horizon_s=horizon_s,
     )
-    return rows_from(Settings(gains=gains, dt_s=dt_s), unit, starts)
+    return rows_from(Request(gains=gains, dt_s=dt_s), unit, starts)
 
 
 def numbers_of(
@@ -118,7 +119,7 @@ def numbers_of(
 
 
 def measure_turns(
-    settings: Settings,
+    request: Request,
     contender: str,
     directions: Any,
     gains: Gains,
@@ -129,12 +130,12 @@ def measure_turns(
         Start(f"axis-{i:02d}", about(axis, angle))
         for i, axis in enumerate(directions)
     ]
-    rows = episodes(contender, starts, gains, settings.dt_s, LONG_S)
-    words = settings.contender(contender).words
+    rows = episodes(contender, starts, gains, request.dt_s, LONG_S)
+    words = request.contender(contender).words
     yield from numbers_of(rows, angle, words, ("settling_time_s",))
 
 
-def measure_small_turns(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_small_turns(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield settling times of small turns at several gains; at: the angle [rad]."""
     for law, directions in (
         (MATRIX, ABOUT),
@@ -143,29 +144,29 @@ def measure_small_turns(settings: Settings, unit: Unit) -> Iterator[Number]:
         for gains in GAINS:
             for angle in SMALL_RAD:
                 yield from measure_turns(
-                    settings, law, directions, Gains(*gains), angle
+                    request, law, directions, Gains(*gains), angle
                 )
 
 
 def measure_larger_turns(
-    settings: Settings, unit: Unit
+    request: Request, unit: Unit
 ) -> Iterator[Number]:
     """Yield settling times of larger turns at the run's gains; at: the angle [rad]."""
     for angle in LARGER_RAD:
         yield from measure_turns(
-            settings, LINEARIZED, axes(DIRECTIONS), settings.gains, angle
+            request, LINEARIZED, axes(DIRECTIONS), request.gains, angle
         )
 
 
-def measure_one_angle(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_one_angle(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield settling times of turns of one Euler angle alone; at: the angle [rad]."""
     for angle in ALONE_RAD:
         yield from measure_turns(
-            settings, LINEARIZED, np.eye(3), settings.gains, angle
+            request, LINEARIZED, np.eye(3), request.gains, angle
         )
 
 
-def measure_near_goals(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_near_goals(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield settling times from zero rotation to near goals; at: their angle [rad]."""
     starts = []
     for i, axis in enumerate(axes(DIRECTIONS)):
@@ -177,9 +178,9 @@ def measure_near_goals(settings: Settings, unit: Unit) -> Iterator[Number]:
             )
         )
     rows = episodes(
-        LINEARIZED, starts, settings.gains, settings.dt_s, SHORT
+        LINEARIZED, starts, request.gains, request.dt_s, SHORT
     )
-    words = settings.contender(LINEARIZED).words
+    words = request.contender(LINEARIZED).words
     yield from numbers_of(rows, NEAR_GOAL_RAD, words, ("settling_time_s",))
 
 
@@ -201,19 +202,19 @@ def starts_beside_pole(margin: float) -> list[Start]:
 
 
 def measure_beside_poles(
-    settings: Settings, unit: Unit
+    request: Request, unit: Unit
 ) -> Iterator[Number]:
     """Yield the largest commands of spins beside a pole; at: the margin [rad]."""
-    words = settings.contender(FEEDBACK).words
+    words = request.contender(FEEDBACK).words
     for margin in MARGINS_RAD:
         starts = starts_beside_pole(margin)
         rows = episodes(
-            FEEDBACK, starts, settings.gains, settings.dt_s, SHORT
+            FEEDBACK, starts, request.gains, request.dt_s, SHORT
         )
         yield from numbers_of(rows, margin, words, ("peak_u",))
 
 
-def measure_perturbed(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_perturbed(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield what a perturbation does to two laws from the same starts; at: its level."""
     axis, count, laws, measures = PERTURBED[unit.selector]
     for law in laws:
@@ -225,18 +226,18 @@ def measure_perturbed(settings: Settings, unit: Unit) -> Iterator[Number]:
             total=count,
             horizon_s=PERTURBED_S,
         )
-        rows = rows_of(settings, own)
-        words = settings.contender(law).words
+        rows = rows_of(request, own)
+        words = request.contender(law).words
         for level, at_level in rows.groupby("level", sort=False):
             yield from numbers_of(at_level, level, words, measures)
 
 
-def prepare(settings: Settings, unit: Unit) -> None:
+def prepare(request: Request, unit: Unit) -> None:
     """Compile the loop of the free body and a law of it."""
     from bench.engines.metrics.registry import metrics_of
 
     prepare_law(
-        settings,
+        request,
         Unit("free-body", MATRIX),
         "ideal-rk4",
         tuple(metrics_of(on_arm=False)),

@@ -13,8 +13,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from bench.base.on_first_use import ScipyRotation
-from bench.experiments.experiment import Settings, Unit
+from bench.experiments.experiment import Unit
 from bench.experiments.probes.number import Number
+from bench.experiments.request import Request
 
 WAYS, LEGS = 200, 5
 """Pairs of paths with the same ends; turns about one axis, one after the other."""
@@ -48,13 +49,13 @@ def after(legs: Sequence) -> ScipyRotation:
     )
 
 
-def measure_ways(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_ways(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield what integrals of the angular velocity miss [rad]; at: the angle of a loop's turns [rad].
 
     way_difference: of two ways with the same ends. left_after_loop: the rotation after turns about x, y, -x and -y.
     one_axis_gap: of turns about one axis.
     """
-    rng = np.random.default_rng(settings.seed)
+    rng = np.random.default_rng(request.seed)
     end, between = ScipyRotation.random(WAYS, rng=rng), ScipyRotation.random(WAYS, rng=rng)
     by_way = between.as_rotvec() + (end * between.inv()).as_rotvec()
     for k, apart in enumerate(
@@ -117,7 +118,7 @@ def another(R: np.ndarray, trio: tuple[int, ...]) -> np.ndarray:
 
 
 def measure_eliminations(
-    settings: Settings, unit: Unit
+    request: Request, unit: Unit
 ) -> Iterator[Number]:
     """Yield of every three elements of n and o what their elimination divides by, and a second matrix without them.
 
@@ -125,7 +126,7 @@ def measure_eliminations(
     elements. second_gap: to (2.5). second_difference: the median of the largest element's difference from R.
     """
     R = ScipyRotation.random(
-        MATRICES, rng=np.random.default_rng(settings.seed)
+        MATRICES, rng=np.random.default_rng(request.seed)
     ).as_matrix()
     for trio in itertools.combinations(range(6), 3):
         case, by = "".join(map(str, trio)), divisor(R, trio)
@@ -161,9 +162,9 @@ SETS = ("Z-Y-X", "Z-Y-Z", "roll, pitch and yaw", "angle and axis")
 """Representations of which two sets of values are compared."""
 
 
-def measure_sets(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_sets(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield how far apart matrices of two sets of values are, and of many sets at a degenerate orientation."""
-    rng = np.random.default_rng(settings.seed)
+    rng = np.random.default_rng(request.seed)
     sets = rng.uniform(0.1, 1.4, (MATRICES, 3))
     flipped = (sets + np.array((np.pi, 0.0, np.pi))) * np.array(
         (1.0, -1.0, 1.0)
@@ -210,11 +211,11 @@ def least_of(form: str, angles: tuple[float, float, float]) -> float:
 
 
 def measure_twelve_forms(
-    settings: Settings, unit: Unit
+    request: Request, unit: Unit
 ) -> Iterator[Number]:
     """Yield the least singular value of B of every form; at: the middle angle, where degenerate and elsewhere [rad]."""
     outer = (
-        np.random.default_rng(settings.seed)
+        np.random.default_rng(request.seed)
         .uniform(-3.0, 3.0, (PAIRS, 2))
         .tolist()
     )
@@ -230,13 +231,13 @@ def measure_twelve_forms(
             yield Number(measure, found, f"{form}-{k:02d}", middle)
 
 
-def measure_lines(settings: Settings, unit: Unit) -> Iterator[Number]:
+def measure_lines(request: Request, unit: Unit) -> Iterator[Number]:
     """Yield lengths of straight lines in Z-Y-X angles over the shortest, and how unevenly errors turn the hand.
 
     unevenness: the greatest over the least rotation by errors of one length; singular values of B are 1 and
     sqrt(1 -+ |sin beta|).
     """
-    rng = np.random.default_rng(settings.seed)
+    rng = np.random.default_rng(request.seed)
     start, end = (ScipyRotation.random(MATRICES, rng=rng) for _ in range(2))
     shortest = (end * start.inv()).magnitude()
     first, last = (one.as_euler("ZYX") for one in (start, end))

@@ -17,7 +17,8 @@ import pyarrow.parquet as pq
 from bench.base.errors import BadResults, NoTable
 from bench.base.files import read_json, refuse_link, write_atomically
 from bench.experiments.columns import VERSION, Table
-from bench.experiments.experiment import Settings, Unit, experiment_of, known_experiments, known_tables, rows_of
+from bench.experiments.experiment import Unit, experiment_of, known_experiments, known_tables, rows_of
+from bench.experiments.request import Request
 from bench.experiments.tables.schema import table_of
 
 
@@ -54,15 +55,15 @@ def as_table(frame: pd.DataFrame, table: str | Table) -> pa.Table:
     return pa.Table.from_arrays(columns, schema=schema)  # Table.from_pandas takes twice the time for 20 rows
 
 
-def table_of_unit(settings: Settings, unit: Unit) -> pa.Table:
+def table_of_unit(request: Request, unit: Unit) -> pa.Table:
     """Return the rows of a unit."""
-    return as_table(rows_of(settings, unit), experiment_of(unit).table)
+    return as_table(rows_of(request, unit), experiment_of(unit).table)
 
 
-def lost_table(settings: Settings, unit: Unit, outcome: str) -> pa.Table:
+def lost_table(request: Request, unit: Unit, outcome: str) -> pa.Table:
     """Return what is left of a unit whose law crashed or hung."""
     experiment = experiment_of(unit)
-    return as_table(pd.DataFrame(experiment.lost(settings, unit, outcome)), experiment.table)
+    return as_table(pd.DataFrame(experiment.lost(request, unit, outcome)), experiment.table)
 
 
 def write_table(path: Path, frame: pd.DataFrame | pa.Table, table: str | Table, about: dict | None = None) -> None:

@@ -14,18 +14,10 @@ from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
-from bench.base.errors import NoTable
-from bench.experiments.tables import read as published
-from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results
-from bench.findings.claims.verdict import (
-    Claim,
-    Evidence,
-    NoEvidence,
-    Verdict,
-    Word,
-    decide,
-    verb_phrase,
-)
+from bench.base.errors import NoEvidence, NoTable
+from bench.experiments.tables.run import MAIN_ENGINE, Run, shown_folder
+from bench.findings.claims.tables import CHECK_ENGINES
+from bench.findings.claims.verdict import Claim, Evidence, Verdict, Word, decide, verb_phrase
 
 RULE = (
     f"Like the paper, we simulate in continuous time for all verdicts (engine {MAIN_ENGINE}). We "
@@ -51,25 +43,25 @@ def all_claims(paper: str = MURPHY) -> tuple[Claim, ...]:
     return tuple(found[id] for id in sorted(found))
 
 
-def judge(id: str, results: Results) -> Verdict:
+def judge(id: str, run: Run) -> Verdict:
     """Return the verdict on one claim on a run's tables."""
-    return decide(next(claim for paper in PAPERS for claim in all_claims(paper) if claim.id == id), results)
+    return decide(next(claim for paper in PAPERS for claim in all_claims(paper) if claim.id == id), run)
 
 
-def judge_possible(results: Results, paper: str = MURPHY) -> tuple[list[Verdict], dict[str, str]]:
+def judge_possible(run: Run, paper: str = MURPHY) -> tuple[list[Verdict], dict[str, str]]:
     """Return the verdict on every claim of a paper that a run decides, and for each other one what the run lacks."""
     decided, lacks = [], {}
     for one in all_claims(paper):
         try:
-            decided.append(decide(one, results))
+            decided.append(decide(one, run))
         except (NoEvidence, NoTable) as error:
             lacks[one.id] = str(error)
     return decided, lacks
 
 
-def judge_each(results: Results, paper: str = MURPHY) -> list[Verdict]:
+def judge_each(run: Run, paper: str = MURPHY) -> list[Verdict]:
     """Return a verdict on every claim: 'not tested' where the run lacks what it needs, with what is lacking."""
-    decided, lacks = judge_possible(results, paper)
+    decided, lacks = judge_possible(run, paper)
     every = all_claims(paper)
     verdicts = {verdict.id: verdict for verdict in decided}
     for claim in every:
@@ -89,7 +81,7 @@ def format_tally(words: Iterable[Word]) -> str:
 
 def judge_all(folder: Path | None = None) -> list[Verdict]:
     """Return the verdict on every claim on the run in a folder, or on the one shown; NoEvidence: it lacks rows."""
-    decided, lacks = judge_possible(Results(Path(folder) if folder else published.folder()))
+    decided, lacks = judge_possible(Run(Path(folder) if folder else shown_folder()))
     if lacks:
         raise NoEvidence(next(iter(lacks.values())))
     return decided

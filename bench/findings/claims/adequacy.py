@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from bench.base.on_first_use import pd
-from bench.experiments.tables.read import FREE_BODY, converged
+from bench.experiments.tables.run import FREE_BODY, Run, converged, require_rows
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims import places
 from bench.findings.claims.places import EXACT_RAD
@@ -22,7 +22,7 @@ from bench.findings.claims.standing import (
     price_of_a_call,
     times_of,
 )
-from bench.findings.claims.tables import Results, settled, settling_times, some
+from bench.findings.claims.tables import settled, settling_times, starts_at_speed
 from bench.findings.perturbed import DETOUR
 from bench.findings.start_sets import describe_lacking, least_starts
 from bench.law.attribution import YOURS
@@ -80,29 +80,29 @@ class Adequacy(NamedTuple):
     rows: int
 
 
-def every(results: Results, engine: str) -> list[Adequacy]:
+def every(results: Run, engine: str) -> list[Adequacy]:
     """Return all laws that have a suite's uniform starts, 180° rotations and a cost, the fewest operations first."""
     runs = results.table("episodes", **FREE_BODY, task="free-body", engine=engine)
     runs = runs[runs["start_set"].isin(("uniform", *DIRECTED))]
     least, by_law = least_starts(engine, "beyond"), runs.groupby("contender", observed=True)
     lacking = [name for name, own in by_law if describe_lacking(own, least, "uniform", "half-turn")]
-    runs = runs[~runs["contender"].isin(lacking if results.folder else [])]
-    runs = some(converged(runs), f"law with the starts that a claim needs by {engine}").reset_index(drop=True)
+    runs = runs[~runs["contender"].isin(lacking if results.has_folder else [])]
+    runs = require_rows(converged(runs), f"law with the starts that a claim needs by {engine}").reset_index(drop=True)
     runs = runs.assign(lost=~settled(runs), exact=exact(runs))
     costs = results.table("costs", **FREE_BODY, branch="typical")
     priced = {str(name): rows for name, rows in costs.groupby("contender", observed=True)}
     found = [
-        _row(str(name), own, priced[str(name)], tuple(results.spun(str(name), engine)))
+        _row(str(name), own, priced[str(name)], tuple(starts_at_speed(results, str(name), engine)))
         for name, own in runs.groupby("contender", observed=True)
         if name in priced and {"uniform", "half-turn"} <= set(own["start_set"])
     ]
     return sorted(found, key=lambda one: sum(one.cost))
 
 
-def held(results: Results, noise_rad: float) -> dict[str, tuple[int, int]]:
+def held(results: Run, noise_rad: float) -> dict[str, tuple[int, int]]:
     """Return by law the starts at 180° that worst-case noise up to an angle holds there, and of how many."""
     noise = results.table("robustness", axis=NOISE)
-    tried = some(noise[noise["level"] <= noise_rad], f"episode under '{NOISE}'")
+    tried = require_rows(noise[noise["level"] <= noise_rad], f"episode under '{NOISE}'")
     counts = tried.assign(lost=~settled(tried)).groupby("contender", observed=True)["lost"].agg(["sum", "size"])
     return {str(name): (int(lost), int(of)) for name, lost, of in counts.itertuples()}
 
@@ -150,7 +150,7 @@ def tallied(rows: pd.DataFrame, with_goal: bool) -> Operations:
     return total if with_goal else Operations(total.flops - goal.flops, total.calls - goal.calls)
 
 
-def ledger(results: Results) -> Ledger:
+def ledger(results: Run) -> Ledger:
     """Return the cost of laws of the free body, typical branch, without the goal's stage and with it."""
     rows = results.table("costs", **FREE_BODY, branch="typical")
     by_law = {str(name): own for name, own in rows.groupby("contender", observed=True)}
@@ -159,11 +159,11 @@ def ledger(results: Results) -> Ledger:
     return Ledger(times, (alone, whole), price_of_a_call(times, whole))
 
 
-def of_three(results: Results) -> Ledger:
+def of_three(results: Run) -> Ledger:
     """Return the ledger where the paper's three laws are counted; NoEvidence: one of them is not."""
     known = ledger(results)
     for name in THREE:
-        some([one[name] for one in known.accountings if name in one], f"cost of {name}")
+        require_rows([one[name] for one in known.accountings if name in one], f"cost of {name}")
     return known
 
 

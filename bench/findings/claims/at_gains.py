@@ -9,10 +9,12 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from bench.base.errors import NoEvidence
+from bench.experiments.tables.run import MAIN_ENGINE, Run, run_in
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.amounts import join_words
-from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results, evidence
-from bench.findings.claims.verdict import Evidence, NoEvidence, Word, verb_phrase
+from bench.findings.claims.tables import CHECK_ENGINES, evidence
+from bench.findings.claims.verdict import Evidence, Word, verb_phrase
 from bench.law.inputs import Gains
 
 REFERENCE = RESULTS / "reference"
@@ -31,17 +33,17 @@ HALF_STEP = "half-step"
 """The reference's seed, at half its control period."""
 
 
-def other_gains(results: Results) -> list[Results]:
+def other_gains(run: Run) -> list[Run]:
     """Return the runs of results/gains and results/reference; none for tables alone, unless they name some.
 
     They are the same whatever the run is, so that every run gives a claim one word.
     """
-    if results.others is not None:
-        return list(results.others)
-    if results.folder is None:
+    if run.others is not None:
+        return list(run.others)
+    if not run.has_folder:
         return []
     folders = [REFERENCE, *(path.parent for path in sorted(GAINS.glob("*/episodes.parquet")))]
-    return [Results(folder) for folder in folders]
+    return [run_in(folder) for folder in folders]
 
 
 def at_every_gain(decide: Callable) -> Callable:
@@ -56,13 +58,13 @@ def weakest_at_every_gain(decide: Callable) -> Callable:
 
 def _at_every_gain(decide: Callable, combine: Callable[[list[Word]], Word]) -> Callable:
     @functools.wraps(decide)
-    def judge(results: Results) -> Any:
-        others = other_gains(results)
+    def judge(run: Run) -> Any:
+        others = other_gains(run)
         if not others:
-            return decide(results)
-        own = results.gains()
+            return decide(run)
+        own = run.gains()
         found = {one.gains(): decide(one) for one in others if one.gains() != own}
-        found = dict(sorted({**found, own: decide(results)}.items()))
+        found = dict(sorted({**found, own: decide(run)}.items()))
         # What was not tested at some gains says nothing of what would come out there.
         words = [word for word, _ in found.values() if word != Word.UNTESTED]
         word = combine(words) if words else Word.UNTESTED
@@ -121,15 +123,15 @@ def _told(gains: Gains) -> str:
 
 
 def on_every_engine(decide: Callable) -> Callable:
-    """Wrap a judging function of (results, engine) to ask the main engine, then the sampled ones that have rows."""
+    """Wrap a judging function of (run, engine) to ask the main engine, then the sampled ones that have rows."""
 
     @functools.wraps(decide)
-    def judge(results: Results) -> Any:
-        word, found = decide(results, MAIN_ENGINE)
+    def judge(run: Run) -> Any:
+        word, found = decide(run, MAIN_ENGINE)
         others, rows = {}, found.rows
         for engine in CHECK_ENGINES:
             with contextlib.suppress(NoEvidence):
-                others[engine], also = decide(results, engine)
+                others[engine], also = decide(run, engine)
                 rows += also.rows
         said = "We did not judge the claim for sampled control, because this run has too few such simulations."
         if others:

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from bench.base.on_first_use import ScipyRotation, pd
+from bench.experiments.tables.run import Run, require_rows
 from bench.findings.amounts import count, count_of, join_words, part_of
 from bench.findings.claims import side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
-from bench.findings.claims.tables import Results, evidence, percent, rounding, some
+from bench.findings.claims.tables import evidence, percent, rounding
 from bench.findings.claims.verdict import Evidence, Word, claim, word_of
 
 ONE_AXIS = ("about x", "about y", "about z")
@@ -54,10 +55,10 @@ LEVEL_PAIR = TWO_AXES[0]
 
 
 @claim("C22")
-def c22(results: Results) -> tuple[Word, Evidence]:
+def c22(run: Run) -> tuple[Word, Evidence]:
     """One angle against one axis, by both ways to control forces."""
-    word, found = _one_axis(results)
-    turns = results.probe("axes-of-angles")
+    word, found = _one_axis(run)
+    turns = run.probe("axes-of-angles")
     by_alpha, by_gamma = float(turns["alpha_gap"].max()), float(turns["gamma_gap"].max())
     axes = (
         f"If one Euler angle changes, the hand turns about one axis, the axis of this angle. At {len(turns)} "
@@ -69,15 +70,15 @@ def c22(results: Results) -> tuple[Word, Evidence]:
 
 
 @side_by_side.by_either_form
-def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
+def _one_axis(run: Run, forms: tuple[str, ...]) -> Any:
     """Measured compliance of one angle against that of one axis, as it is and turned by the angles before."""
-    rows = side_by_side.beside_base(results, COORDINATES, ONE_AXIS, forms)
+    rows = side_by_side.beside_base(run, COORDINATES, ONE_AXIS, forms)
     away = (rows["cos_beta"] >= CLOSE_TO_POLE).to_numpy()
     earlier = rows[list(ANGLES)].to_numpy() * np.array([EARLIER[order] for order in rows["complies"]])
     is_turned = away & (np.degrees(np.abs(earlier).max(axis=1)) >= APART_DEG)
     for order in ONE_AXIS:
         own = (rows["complies"] == order).to_numpy()
-        some(
+        require_rows(
             rows[own & (is_turned if any(EARLIER[order]) else away)],
             f"pose that tells angle and axis apart, {order}",
         )
@@ -132,13 +133,14 @@ def _greatest(numbers: np.ndarray) -> float:
 
 @claim("C23")
 @side_by_side.by_papers_form
-def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
+def c23(run: Run, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     """Measured compliance of two angles against that of two axes: apart or not, and by how much in theory."""
-    rows = side_by_side.beside_base(results, COORDINATES, TWO_AXES, forms)
+    rows = side_by_side.beside_base(run, COORDINATES, TWO_AXES, forms)
     rows = rows[rows["cos_beta"] >= CLOSE_TO_POLE].reset_index(drop=True)
     general = (np.degrees(rows[list(ANGLES)].abs()) >= APART_DEG).all(axis=1).to_numpy()
     for order in TWO_AXES:
-        some(rows[general & (rows["complies"] == order)], f"pose with no angle zero and B^-1 well conditioned, {order}")
+        of_order = rows[general & (rows["complies"] == order)]
+        require_rows(of_order, f"pose with no angle zero and B^-1 well conditioned, {order}")
     C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
     differs = side_by_side.apart(C, base)
     parted = differs[general] > SAME
@@ -188,11 +190,12 @@ def _leak(rows: pd.DataFrame, C: np.ndarray) -> np.ndarray:
 
 @claim("C24")
 @side_by_side.by_papers_form
-def c24(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
+def c24(run: Run, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     """Rotation about x and z per moment about x with Z-Y-Z and with Z-Y-X angles, over what is wanted."""
-    zyz, zyx = (_about_x(results, coordinates, forms) for coordinates in (ZYZ, COORDINATES))
+    zyz, zyx = (_about_x(run, coordinates, forms) for coordinates in (ZYZ, COORDINATES))
     what, is_zero = f"pose of {side_by_side.PROBE} by hybrid/{ZYZ}", zyz["from_zero"] <= ZERO_RAD
-    at_zero, near = some(zyz[is_zero], f"{what} at zero rotation"), some(zyz[~is_zero], f"{what} near zero rotation")
+    at_zero = require_rows(zyz[is_zero], f"{what} at zero rotation")
+    near = require_rows(zyz[~is_zero], f"{what} near zero rotation")
     word = word_of(zyz["problem"].all() and not zyx["problem"].any(), zyz["problem"].any())
     done = near[near["outcome"] == "done"]
     ends = join_words(f"'{end}'" for end in sorted(set(at_zero["outcome"].astype(str))))
@@ -218,9 +221,9 @@ def _problems(rows: pd.DataFrame) -> str:
     return count_of(int(rows["problem"].sum()), len(rows), "tests")
 
 
-def _about_x(results: Results, coordinates: str, forms: tuple[str, ...]) -> pd.DataFrame:
+def _about_x(run: Run, coordinates: str, forms: tuple[str, ...]) -> pd.DataFrame:
     """Poses near zero, order 'about x': c_xx over that of hybrid-base, |c_zx / c_xx|, and whether it is a problem."""
-    rows = side_by_side.beside_base(results, coordinates, (ORDER,), forms)
+    rows = side_by_side.beside_base(run, coordinates, (ORDER,), forms)
     rows = rows[np.degrees(rows["from_zero"]) <= NEAR_DEG + SLACK_DEG].reset_index(drop=True)
     C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
     yields, leak = C[:, 0, 0] / base[:, 0, 0], np.abs(C[:, 2, 0] / C[:, 0, 0])

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from bench.base.errors import NoEvidence
 from bench.base.on_first_use import pd
 from bench.engines.metrics.contact_force import WINDOW_S
+from bench.experiments.tables.run import Run, require_rows
 from bench.findings.amounts import capitalize, count, count_of
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, by_papers_form, paired
-from bench.findings.claims.tables import Results, evidence, percent, some
-from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, word_of
+from bench.findings.claims.tables import evidence, percent
+from bench.findings.claims.verdict import Evidence, Word, claim, word_of
 from tasks.contact_rest import HORIZON_S
 
 # |beta| of the hand's frame from which on the two must differ: its x then leans to z as much as it lies level.
@@ -53,13 +55,13 @@ LIMITS_S = {"end": HORIZON_S, "window": WINDOW_S}
 
 @claim("C25")
 @by_papers_form
-def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
+def c25(run: Run, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     """Pairs of episodes in contact that differ in the Jacobian alone, by task."""
     what = f"pose of a task by hybrid/{COORDINATES} and {BASE}, +{' or +'.join(forms)}"
-    rows = some(paired(results, COORDINATES, forms), what)
+    rows = require_rows(paired(run, COORDINATES, forms), what)
     touching = rows[list(TOUCHED)].notna().groupby(rows["task"]).transform("any").any(axis=1)
-    rows = some(_compared(rows[touching].reset_index(drop=True)), "pose of a task with contact")
-    complex_ones = some(rows[rows["turns"] >= 2], "pose of a task with contact where two turns comply")
+    rows = require_rows(_compared(rows[touching].reset_index(drop=True)), "pose of a task with contact")
+    complex_ones = require_rows(rows[rows["turns"] >= 2], "pose of a task with contact where two turns comply")
     depends = [_depends(task, own, forms) for task, own in complex_ones.groupby("task")]
     turned = complex_ones[complex_ones["is_turned"]]
     straight = complex_ones[complex_ones["beta"].abs() <= ZERO_RAD]
@@ -93,7 +95,7 @@ def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
 def _depends(task: str, rows: pd.DataFrame, forms: tuple[str, ...]) -> bool:
     """Whether on every arm and in every form that it has run some pair with a turned frame parts."""
     for form in forms:
-        some(rows[rows["form"] == form], f"pose of {task}, +{form}")
+        require_rows(rows[rows["form"] == form], f"pose of {task}, +{form}")
     found = []
     for (arm, form), own in rows.groupby(["arm", "form"]):
         turned, straight = own[own["is_turned"]], own[own["beta"].abs() <= ZERO_RAD]
@@ -154,12 +156,12 @@ def _parted(rows: pd.DataFrame) -> str:
 
 @claim("C47")
 @by_papers_form
-def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
+def c47(run: Run, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     """Errors of force, of moment and of rotation of the controller on the geometric Jacobian."""
-    rows = results.table("compliance", controller=BASE)
+    rows = run.table("compliance", controller=BASE)
     rows = rows[rows["form"].isin(forms) & rows["task"].isin((PRESSED, ALIGNED))]
     pressed, aligned = (
-        some(rows[rows["task"] == task], f"pose of {task} by {BASE}, +{' or +'.join(forms)}")
+        require_rows(rows[rows["task"] == task], f"pose of {task} by {BASE}, +{' or +'.join(forms)}")
         for task in (PRESSED, ALIGNED)
     )
     force = float(pressed["normal_force_error_n"].max()) / FORCE_N

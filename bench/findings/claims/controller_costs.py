@@ -9,13 +9,13 @@ import tasks
 from bench.base.on_first_use import pd
 from bench.experiments.probes.arms import BY_EULER, CURVES, INVERSES, ON_MATRIX, TASK
 from bench.experiments.suites import SUITES
-from bench.experiments.tables.read import chosen
+from bench.experiments.tables.run import Run, choose_rows, require_rows
 from bench.findings.amounts import count_of, join_words, part_of
 from bench.findings.claims import adequacy, standing
 from bench.findings.claims.adequacy import of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
 from bench.findings.claims.standing import ORDERED, Operations, by_columns
-from bench.findings.claims.tables import Results, evidence, percent, some
+from bench.findings.claims.tables import check_starts, evidence, percent
 from bench.findings.claims.verdict import Evidence, Word, claim, word_of
 from bench.law.control.contact_controller import PAPERS_FORM
 
@@ -59,26 +59,26 @@ def words(controller: str, joints: int) -> dict[str, str]:
     return {"regulator": regulator, "representation": representation, "jacobian": by, "inverse": INVERSES[joints]}
 
 
-def controller_costs(results: Results, controller: str, joints: int) -> pd.DataFrame:
+def controller_costs(run: Run, controller: str, joints: int) -> pd.DataFrame:
     """Its rows of costs.parquet, typical branch, a row a stage."""
-    rows = results.table("costs", **words(controller, joints), branch="typical")
-    return some(rows[rows["joints"] == joints], f"cost of {controller} on {joints} joints")
+    rows = run.table("costs", **words(controller, joints), branch="typical")
+    return require_rows(rows[rows["joints"] == joints], f"cost of {controller} on {joints} joints")
 
 
 @claim("C20")
-def c20(results: Results) -> tuple[Word, Evidence]:
+def c20(run: Run) -> tuple[Word, Evidence]:
     """Curves at two steps; outcomes at the poles against the law on R; stages and totals."""
-    found = some(
-        results.table("episodes", task=TASK, engine="native", variation="ideal-motors"),
+    found = require_rows(
+        run.table("episodes", task=TASK, engine="native", variation="ideal-motors"),
         "nominal episode of an arm",
     )
     arms = sorted(set(found["arm"].astype(str)))
-    bends = [_bend(results, arm) for arm in arms]
-    compared_at = {arm: _at_poles(results, found, arm) for arm in arms}
+    bends = [_bend(run, arm) for arm in arms]
+    compared_at = {arm: _at_poles(run, found, arm) for arm in arms}
     clear, common = (
-        pd.concat([_pairs(results, found, arm, "clear", one) for arm in arms]) for one in (BY_EULER, BY_COMMON)
+        pd.concat([_pairs(run, found, arm, "clear", one) for arm in arms]) for one in (BY_EULER, BY_COMMON)
     )
-    hidden = [_hidden(results, joints) for joints in INVERSES]
+    hidden = [_hidden(run, joints) for joints in INVERSES]
     full, shares, limits, drifts, samples = zip(*bends, strict=True)
     is_first_order = HALVING[0] <= min(shares) and max(shares) <= HALVING[1]
     is_linear = is_first_order and max(limits) <= BEND_TIGHT and max(drifts) <= DRIFT_M
@@ -107,12 +107,12 @@ def c20(results: Results) -> tuple[Word, Evidence]:
     )
 
 
-def _bend(results: Results, arm: str) -> tuple[float, ...]:
+def _bend(run: Run, arm: str) -> tuple[float, ...]:
     """Return how far an arm's curves are from double integrators.
 
     The bend at the step [rad], the halved one's share of it, that at step zero [rad], the drift [m], samples.
     """
-    curves = results.probe("arm-curve", arm=arm)
+    curves = run.probe("arm-curve", arm=arm)
     whole, at_half = (_worst(curves[name]) for name in ("bend_rad", "bend_at_half_step_rad"))
     limit, drift = (_worst(curves[name]) for name in ("bend_at_step_zero_rad", "drift_at_step_zero_m"))
     return whole, at_half / whole, limit, drift, int(curves["samples"].sum())
@@ -123,15 +123,15 @@ def _worst(numbers: pd.Series) -> float:
     return float(numbers.fillna(math.inf).max())
 
 
-def _pairs(results: Results, found: pd.DataFrame, arm: str, start_set: str, controller: str = BY_EULER) -> pd.DataFrame:
+def _pairs(run: Run, found: pd.DataFrame, arm: str, start_set: str, controller: str = BY_EULER) -> pd.DataFrame:
     """Episodes by a controller and by the law on R from the same starts of a set."""
     rows = found[(found["arm"] == arm) & (found["start_set"] == start_set)]
-    least = {part.start_set: part.size or 0 for part in SUITES["quick"].on_arms.slices}  # of the smallest suite
+    least = SUITES["quick"].sections["arm"]["sizes"]  # of the smallest suite
     parts = []
     for one in (controller, ON_MATRIX):
-        own = chosen(rows, words(one, tasks.arm(arm).joints))
-        parts.append(some(own, f"episode of {one} on {arm} from {start_set}"))
-        results.check_starts(own, f"{one} on {arm}", least, start_set)
+        own = choose_rows(rows, words(one, tasks.arm(arm).joints))
+        parts.append(require_rows(own, f"episode of {one} on {arm} from {start_set}"))
+        check_starts(run, own, f"{one} on {arm}", least, start_set)
     return _against(*parts)
 
 
@@ -143,13 +143,13 @@ def _against(own: pd.DataFrame, other: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame({"start_id": both["start_id"].astype(str), "fails": fails})
 
 
-def _at_poles(results: Results, found: pd.DataFrame, arm: str) -> pd.DataFrame:
+def _at_poles(run: Run, found: pd.DataFrame, arm: str) -> pd.DataFrame:
     """Return starts of the set 'pole', and episodes beside poles, by (3.7) and by the law on R."""
     beside = []
     for controller in (BY_EULER, ON_MATRIX):
-        rows = results.probe("arm-pole", arm=arm, **words(controller, tasks.arm(arm).joints))
+        rows = run.probe("arm-pole", arm=arm, **words(controller, tasks.arm(arm).joints))
         beside.append(rows.rename(columns={"case": "start_id"}))
-    return pd.concat([_pairs(results, found, arm, "pole"), _against(*beside)], ignore_index=True)
+    return pd.concat([_pairs(run, found, arm, "pole"), _against(*beside)], ignore_index=True)
 
 
 def _count_failures(rows: pd.DataFrame) -> int:
@@ -157,9 +157,9 @@ def _count_failures(rows: pd.DataFrame) -> int:
     return int(rows["fails"].sum())
 
 
-def _hidden(results: Results, joints: int) -> tuple[bool, str]:
+def _hidden(run: Run, joints: int) -> tuple[bool, str]:
     """Whether the law seems cheaper and the controller is dearer, and the numbers in a sentence."""
-    rows = {one: controller_costs(results, one, joints) for one in (BY_EULER, BY_COMMON, ON_MATRIX)}
+    rows = {one: controller_costs(run, one, joints) for one in (BY_EULER, BY_COMMON, ON_MATRIX)}
     seen = {one: of_stage(own, "regulate") for one, own in rows.items()}
     total = {one: tallied(own, with_goal=False) for one, own in rows.items()}
     seems_cheaper = seen[BY_EULER].flops < seen[ON_MATRIX].flops and seen[BY_EULER].calls <= seen[ON_MATRIX].calls
@@ -190,12 +190,12 @@ OPERATIONS = (
 
 
 @claim("C26")
-def c26(results: Results) -> tuple[Word, Evidence]:
+def c26(run: Run) -> tuple[Word, Evidence]:
     """Pairs of controllers on six and seven joints."""
-    timed, stands, counts, surpluses = results.controller_timings(), [], [], []
+    timed, stands, counts, surpluses = run.controller_timings(), [], [], []
     rows: list[tuple[str, ...]] = []
     for joints, inverse in INVERSES.items():
-        three = {f"{one}+{inverse}": controller_costs(results, one, joints) for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
+        three = {f"{one}+{inverse}": controller_costs(run, one, joints) for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
         alone, whole = ({name: tallied(own, goal) for name, own in three.items()} for goal in (False, True))
         counts.append(f"{euler_count(whole, three)} flops on an arm with {joints} joints")
         surpluses.append(f"{surplus(whole, three)} %")
@@ -234,11 +234,11 @@ def surplus(totals: dict[str, Operations], names: Iterable[str]) -> str:
 
 
 @claim("C33")
-def c33(results: Results) -> tuple[Word, Evidence]:
+def c33(run: Run) -> tuple[Word, Evidence]:
     """Flops and calls of both in contact."""
-    price, told, is_more, is_few, by_joints = adequacy.ledger(results).price, [], [], [], []
+    price, told, is_more, is_few, by_joints = adequacy.ledger(run).price, [], [], [], []
     for joints in INVERSES:
-        base, euler = (_in_contact(results, one, joints) for one in (BASE, EULER))
+        base, euler = (_in_contact(run, one, joints) for one in (BASE, EULER))
         dearer = euler.weighed(price) / base.weighed(price) - 1
         weighed = (
             f" If calls are counted as flops, the controller with the Euler Jacobian takes {100 * dearer:.0f} % more "
@@ -263,20 +263,20 @@ def c33(results: Results) -> tuple[Word, Evidence]:
     )
 
 
-def _in_contact(results: Results, controller: str, joints: int) -> Operations:
+def _in_contact(run: Run, controller: str, joints: int) -> Operations:
     """Return the operations of a controller's typical control period on an arm of so many joints."""
-    counts = results.probe("contact-cost")
+    counts = run.probe("contact-cost")
     is_it = (counts["case"] == f"{controller}+{PAPERS_FORM}") & (counts["at"] == joints)
-    row = some(counts[is_it], f"cost of {controller} in contact on {joints} joints").iloc[0]
+    row = require_rows(counts[is_it], f"cost of {controller} in contact on {joints} joints").iloc[0]
     return Operations(int(row["flops"]), int(row["calls"]))
 
 
 @claim("C46")
-def c46(results: Results) -> tuple[Word, Evidence]:
+def c46(run: Run) -> tuple[Word, Evidence]:
     """Operations of (3.7), of what it replaces, and of what it leaves to the law."""
     rows_told, is_less, is_left, sizes = [], [], [], []
     for joints in INVERSES:
-        rows = {one: controller_costs(results, one, joints) for one in (BY_EULER, BY_COMMON, ON_MATRIX)}
+        rows = {one: controller_costs(run, one, joints) for one in (BY_EULER, BY_COMMON, ON_MATRIX)}
         total = {one: tallied(own, with_goal=False) for one, own in rows.items()}
         law = {one: of_stage(own, "regulate") for one, own in rows.items()}
         is_less += [by_columns(total[BY_EULER], total[one]) == ORDERED for one in (BY_COMMON, ON_MATRIX)]

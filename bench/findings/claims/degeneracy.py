@@ -6,18 +6,17 @@ import numpy as np
 
 from bench.experiments.probes import variables
 from bench.experiments.probes.coordinates import ANGLE_AND_AXIS, DECADES
+from bench.experiments.tables.run import MAIN_ENGINE, Run, require_rows
 from bench.experiments.tables.statistics import quantile_estimate
 from bench.findings.amounts import join_words
 from bench.findings.claims.places import at_boundary
 from bench.findings.claims.tables import (
-    MAIN_ENGINE,
-    Results,
+    episodes_of,
     evidence,
     named_interval,
     rounding,
     settled,
     settled_of,
-    some,
 )
 from bench.findings.claims.verdict import Evidence, Word, claim, word_of
 
@@ -37,9 +36,9 @@ WAYS, LEGS = variables.WAYS, variables.LEGS
 
 
 @claim("C13")
-def c13(results: Results) -> tuple[Word, Evidence]:
+def c13(run: Run) -> tuple[Word, Evidence]:
     """Condition numbers near zero rotation."""
-    rows = results.probe("near-zero")
+    rows = run.probe("near-zero")
     found = {}
     for word, own in rows.groupby("representation", observed=True):
         typical = own.groupby("at")["condition"].median().sort_index(ascending=False)
@@ -60,11 +59,12 @@ def c13(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("C14")
-def c14(results: Results) -> tuple[Word, Evidence]:
+def c14(run: Run) -> tuple[Word, Evidence]:
     """B at half and quarter turns about Y, and what a simulation from there does."""
-    least = results.probe("about-y").set_index("at")["least_of_B"]
-    turns = results.episodes("feedback-linearized", MAIN_ENGINE, "half-turn", "poles")
-    about_y = some(turns[turns["start_id"] == "half-turn-y-exact"], "exact 180° rotation about y")
+    least = run.probe("about-y").set_index("at")["least_of_B"]
+    turns = episodes_of(run, "feedback-linearized", MAIN_ENGINE, "half-turn", "poles")
+    is_about_y = turns["start_id"] == "half-turn-y-exact"
+    about_y = require_rows(turns[is_about_y], "exact 180° rotation about y")
     poles = at_boundary(turns[turns["start_set"] == "poles"], "pole", "exact pole")
     word = word_of(least[180] < ON_POLE, max(least[90], least[-90]) < ON_POLE)
     so = "The equations of the paper do not correct section 2.2"
@@ -82,9 +82,9 @@ def c14(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("C15")
-def c15(results: Results) -> tuple[Word, Evidence]:
+def c15(run: Run) -> tuple[Word, Evidence]:
     """R at both poles as alpha and gamma move against and with each other."""
-    rows = results.probe("moved-angles")
+    rows = run.probe("moved-angles")
     what = rows["case"].astype(str).str.partition("-")[0]
     most = rows["change_of_R"].groupby([rows["at"], what]).max()
     moved = {(sign, word): most[90.0 * sign, word] for sign in (1, -1) for word in ("sum", "difference")}
@@ -106,13 +106,13 @@ def c15(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("C16")
-def c16(results: Results) -> tuple[Word, Evidence]:
+def c16(run: Run) -> tuple[Word, Evidence]:
     """B at the run's orientations and at both poles."""
-    frame = results.episodes("feedback-linearized", MAIN_ENGINE).drop_duplicates(["start_set", "start_id"])
+    frame = episodes_of(run, "feedback-linearized", MAIN_ENGINE).drop_duplicates(["start_set", "start_id"])
     at_poles = at_boundary(frame, "pole", "exact pole")
-    matrices = results.probe("largest-B")
-    matrices = some(matrices[matrices["case"].isin(set(frame["start_id"]))], "B of a start")
-    on_pole = some(matrices[matrices["case"].isin(set(at_poles["start_id"]))], "B of an exact pole")
+    matrices = run.probe("largest-B")
+    matrices = require_rows(matrices[matrices["case"].isin(set(frame["start_id"]))], "B of a start")
+    on_pole = require_rows(matrices[matrices["case"].isin(set(at_poles["start_id"]))], "B of an exact pole")
     largest, least = float(matrices["largest_of_B"].max()), float(on_pole["least_of_B"].max())
     lacks_inverse = np.isfinite(matrices["largest_of_B"]).all() and least < ON_POLE
     word = word_of(not np.isfinite(on_pole["largest_of_B"]).all(), lacks_inverse)
@@ -132,9 +132,9 @@ def c16(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("C28")
-def c28(results: Results) -> tuple[Word, Evidence]:
+def c28(run: Run) -> tuple[Word, Evidence]:
     """Ways with the same ends, a loop of zero integral, and turns about one axis."""
-    rows = results.probe("ways")
+    rows = run.probe("ways")
     ends = rows["way_difference_rad"].dropna().to_numpy()
     looped = rows[rows["left_after_loop_rad"].notna()]
     loops = looped["left_after_loop_rad"].to_numpy()

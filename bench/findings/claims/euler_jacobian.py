@@ -6,23 +6,16 @@ import itertools
 
 import numpy as np
 
+from bench.base.errors import NoEvidence
 from bench.base.on_first_use import pd
 from bench.experiments.probes import arms, coordinates
-from bench.experiments.tables.read import FREE_BODY
+from bench.experiments.tables.run import FREE_BODY, MAIN_ENGINE, Run, require_rows
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.amounts import count_of, join_words, part_of
 from bench.findings.claims import tables
 from bench.findings.claims.feedback_linearized import LAW
-from bench.findings.claims.tables import (
-    MAIN_ENGINE,
-    Results,
-    Share,
-    evidence,
-    percent_interval,
-    share,
-    some,
-)
-from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, word_of
+from bench.findings.claims.tables import Share, check_starts, evidence, percent_interval, share
+from bench.findings.claims.verdict import Evidence, Word, claim, word_of
 from bench.findings.start_sets import least_starts
 
 # Decades a decade. cond B = (1 + |sin beta|)/cos beta is 2/d to a relative d^2 at a distance d; the constant between
@@ -68,14 +61,14 @@ rounding eps/step are both about eps^(2/3), over the margin."""
 
 
 @claim("C18")
-def c18(results: Results) -> tuple[Word, Evidence]:
+def c18(run: Run) -> tuple[Word, Evidence]:
     """Slopes towards the pole by family, the largest element on arrival, and the determinants' identity."""
-    rows = some(results.table("poses", representation=COORDINATES), "pose of an arm")
+    rows = require_rows(run.table("poses", representation=COORDINATES), "pose of an arm")
     ways = _families(rows)
     silent = sorted(set(rows["arm"]) - set(ways["arm"]))
     if silent:
         raise NoEvidence(f"no well-conditioned family of poses towards the pole on {', '.join(silent)}")
-    square = some(rows[rows["det_gap"].notna() & (rows["margin"] >= NEAR)], "pose of an arm with six joints")
+    square = require_rows(rows[rows["det_gap"].notna() & (rows["margin"] >= NEAR)], "pose of an arm with six joints")
     slopes = ways[["condition_analytic", "largest"]].to_numpy()
     errors = square["det_gap"] * square["margin"] / EPS
     tight = (
@@ -84,7 +77,7 @@ def c18(results: Results) -> tuple[Word, Evidence]:
     )
     has_own = tight and (errors <= ROUNDINGS).all()
     word = word_of(has_own and rows["largest"].min() <= ROUNDINGS * EPS, has_own)
-    well = some(rows[(rows["pose_set"] == "random") & (rows["condition"] <= WELL_CONDITIONED)], "random pose")
+    well = require_rows(rows[(rows["pose_set"] == "random") & (rows["condition"] <= WELL_CONDITIONED)], "random pose")
     worse = share(well["condition_analytic"] > 10 * well["condition"])
     return word, evidence(
         f"""A family is one posture of an arm, brought to several distances from a pole (beta = +-pi/2). We use
@@ -123,10 +116,10 @@ def _families(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 @claim("C19")
-def c19(results: Results) -> tuple[Word, Evidence]:
+def c19(run: Run) -> tuple[Word, Evidence]:
     """Both gaps at every pose away from the pole, in the units of what rounding leaves."""
-    rows = some(results.table("poses", representation=COORDINATES), "pose of an arm")
-    rows = some(rows[rows["margin"] >= NEAR], f"pose with cos(beta) of {NEAR:g} or more")
+    rows = require_rows(run.table("poses", representation=COORDINATES), "pose of an arm")
+    rows = require_rows(rows[rows["margin"] >= NEAR], f"pose with cos(beta) of {NEAR:g} or more")
     differenced = rows[rows["pose_set"] != "slice"]
     for name, found in (("derivation_gap", rows), ("difference_gap", differenced)):
         silent = sorted(set(rows["arm"]) - set(found.loc[found[name].notna(), "arm"]))
@@ -166,19 +159,19 @@ HEADS = (
 
 
 @claim("C34")
-def c34(results: Results) -> tuple[Word, Evidence]:
+def c34(run: Run) -> tuple[Word, Evidence]:
     """Pairs of forms by how their laws settle, and each form's Jacobian at its pole."""
     forms = (*REGULAR, AT_ZERO)
-    episodes = results.table("episodes", **FREE_BODY, task="free-body", regulator=LAW, engine=MAIN_ENGINE)
+    episodes = run.table("episodes", **FREE_BODY, task="free-body", regulator=LAW, engine=MAIN_ENGINE)
     found: dict[str, dict[str, tuple[Share, Estimate]]] = {form: {} for form in forms}
     for name in SETS:
         rows = [episodes[(episodes["representation"] == form) & (episodes["start_set"] == name)] for form in forms]
         for form, own in zip(forms, rows, strict=True):
-            some(own, f"episode of {LAW}/{form} from {name}")
-            results.check_starts(own, f"{LAW}/{form}", least_starts(MAIN_ENGINE, "beyond"), name)
+            require_rows(own, f"episode of {LAW}/{form} from {name}")
+            check_starts(run, own, f"{LAW}/{form}", least_starts(MAIN_ENGINE, "beyond"), name)
         for form, own in zip(forms, tables.same_starts(rows), strict=True):
             found[form][name] = share(tables.settled(own)), quantile_estimate(tables.settling_times(own), 0.5)
-    conditions = results.probe("forms")
+    conditions = run.probe("forms")
     degenerate = {form: _degenerates(conditions[conditions["representation"] == form]) for form in forms}
     alike = {
         (one, two): degenerate[one][0]
@@ -213,7 +206,7 @@ def _alike(one: tuple[Share, Estimate], two: tuple[Share, Estimate]) -> bool:
 
 def _degenerates(rows: pd.DataFrame) -> tuple[bool, str]:
     """Whether a form's B has C18's slope towards its pole, and what it is; rows: of the probe `forms`."""
-    conditions = some(rows, "condition number of a form").pivot(index="case", columns="at", values="condition")
+    conditions = require_rows(rows, "condition number of a form").pivot(index="case", columns="at", values="condition")
     towards_pole = conditions.sort_index(axis=1, ascending=False)
     slopes = np.diff(np.log10(towards_pole.to_numpy()), axis=1)
     tight = np.abs(slopes - SLOPE).max() <= SLOPE_TIGHT * SLOPE
@@ -231,9 +224,9 @@ def _numbers(found: dict[str, tuple[Share, Estimate]]) -> list[str]:
 
 
 @claim("C44")
-def c44(results: Results) -> tuple[Word, Evidence]:
+def c44(run: Run) -> tuple[Word, Evidence]:
     """Accelerations of the hand under (2.2), with the arm's own model and with a wrong one."""
-    rows = results.probe("arm-acceleration")
+    rows = run.probe("arm-acceleration")
     is_right = rows["at"] == 1.0
     names = list(dict.fromkeys(rows["arm"].astype(str)))
     wrong = rows.loc[~is_right, "acceleration_gap"]

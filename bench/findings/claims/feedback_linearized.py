@@ -6,27 +6,27 @@ import math
 
 import numpy as np
 
+from bench.base.errors import NoEvidence
 from bench.base.on_first_use import pd
 from bench.experiments.probes import commands
 from bench.experiments.probes.turns import BESIDE, MARGINS_RAD, PERTURBED, SPEED
-from bench.experiments.tables.read import converged
+from bench.experiments.tables.run import MAIN_ENGINE, Run, converged, require_rows
 from bench.findings.amounts import capitalize, count_of, join_words
 from bench.findings.claims import places
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.at_gains import on_every_engine
 from bench.findings.claims.places import EXACT_RAD, at_boundary
 from bench.findings.claims.tables import (
-    MAIN_ENGINE,
-    Results,
+    episodes_of,
     evidence,
     lost_text,
     percent_interval,
     settled,
     settled_of,
     share,
-    some,
+    starts_at_speed,
 )
-from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, word_of
+from bench.findings.claims.verdict import Evidence, Word, claim, word_of
 from bench.findings.theory import closed_form
 from bench.law.inputs import Gains
 
@@ -53,19 +53,19 @@ MARGINS = ", ".join(f"{margin:g}" for margin in MARGINS_RAD)
 
 
 @claim("C09")
-def c09(results: Results) -> tuple[Word, Evidence]:
+def c09(run: Run) -> tuple[Word, Evidence]:
     """Traces against the linear closed form; outcomes off and on the boundary, spinning, and to far goals."""
-    rows = results.free_body("traces", regulator=LAW)  # of starts that were not chosen for trouble
-    rows = some(rows[rows["start_set"].isin(("paper", "uniform"))], "trace of the law")
-    bends = [_bend(trace, results.gains()) for _, trace in rows.groupby(["start_set", "start_id"], observed=True)]
-    near = converged(results.episodes(LAW, MAIN_ENGINE, "poles", "wraps"))
+    rows = run.free_body("traces", regulator=LAW)  # of starts that were not chosen for trouble
+    rows = require_rows(rows[rows["start_set"].isin(("paper", "uniform"))], "trace of the law")
+    bends = [_bend(trace, run.gains()) for _, trace in rows.groupby(["start_set", "start_id"], observed=True)]
+    near = converged(episodes_of(run, LAW, MAIN_ENGINE, "poles", "wraps"))
     on_pole, on_wrap = (places.boundary_distance(near)[place] <= EXACT_RAD for place in ("pole", "wrap"))
     pole, wrap = near[on_pole], near[on_wrap & ~on_pole]
-    off = some(near[~on_pole & ~on_wrap], "inexact start of poles and wraps")
-    spun = results.spun(CONTENDER)
+    off = require_rows(near[~on_pole & ~on_wrap], "inexact start of poles and wraps")
+    spun = starts_at_speed(run, CONTENDER)
     from_rest = [one for one in spun if one.speed == 0.0]
     if not from_rest:
-        gains = results.gains()
+        gains = run.gains()
         raise NoEvidence(
             f"random starts of {CONTENDER} from rest with these gains are not tested; map them "
             f"first: bench map --regulator {CONTENDER} --kp {gains.kp:g} --kv {gains.kv:g} "
@@ -73,8 +73,8 @@ def c09(results: Results) -> tuple[Word, Evidence]:
         )
     resting = max(from_rest, key=lambda one: one.share.high)
     lost_at_rest = resting.share.high
-    goals = results.episodes(LAW, MAIN_ENGINE, "goals")
-    goals = some(goals[places.goal_to_pole(goals) > EXACT_RAD], "goal off the pole")
+    goals = episodes_of(run, LAW, MAIN_ENGINE, "goals")
+    goals = require_rows(goals[places.goal_to_pole(goals) > EXACT_RAD], "goal off the pole")
     long_way = int((goals["path_ratio"] * goals["angle0_rad"] > math.pi).sum())
     is_tight = max(bends) <= LINEAR_TIGHT and lost_at_rest <= LOST_SHARE and settled(off).all()
     return word_of(is_tight, max(bends) <= LINEAR_LOOSE and lost_at_rest <= STRAY_SHARE), evidence(
@@ -101,19 +101,19 @@ def _bend(trace: pd.DataFrame, gains: Gains) -> float:
 
 
 @claim("C10")
-def c10(results: Results) -> tuple[Word, Evidence]:
+def c10(run: Run) -> tuple[Word, Evidence]:
     """Commands at exact poles and near them, and on both sides of the jumps; B itself at the poles."""
-    gains = results.gains()
-    exact = at_boundary(results.episodes(LAW, MAIN_ENGINE, "poles"), "pole", "exact pole")
-    at = results.probe("command-at-pole")
-    at = some(at[at["case"].isin(set(exact["start_id"]))], "command at an exact pole")
+    gains = run.gains()
+    exact = at_boundary(episodes_of(run, LAW, MAIN_ENGINE, "poles"), "pole", "exact pole")
+    at = run.probe("command-at-pole")
+    at = require_rows(at[at["case"].isin(set(exact["start_id"]))], "command at an exact pole")
     sizes = at[["u_at_rest", "u_spinning"]].to_numpy()
     finite = int(np.isfinite(sizes).sum())
     largest = float(at["largest_of_B"].max())
-    near = results.probe("command-near-pole")
+    near = run.probe("command-near-pole")
     slope = float(np.polyfit(np.log(near["at"]), np.log(near["u_spinning"]), 1)[0])
     grown = float(near["u_spinning"].max())
-    jumps = results.probe("command-jump")["u_jump"] / (2 * math.pi * gains.kp)
+    jumps = run.probe("command-jump")["u_jump"] / (2 * math.pi * gains.kp)
     passes = finite == 0 and not settled(exact).any() and bool((np.abs(jumps - 1) <= JUMP_SLACK).all())
     divides = abs(slope + 1) <= GROWTH_SLACK and not math.isfinite(largest)
     so = " Therefore the division by zero is in B^-1." if math.isfinite(largest) else ""
@@ -133,18 +133,18 @@ def c10(results: Results) -> tuple[Word, Evidence]:
 
 @claim("C11")
 @on_every_engine
-def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
+def c11(run: Run, engine: str) -> tuple[Word, Evidence]:
     """Erratic episodes among starts outside each margin, at rest and spinning."""
-    frame = results.episodes(LAW, engine, "uniform", "half-turn", "poles", "wraps", "box", "tumbling")
-    gains = results.gains()
+    frame = episodes_of(run, LAW, engine, "uniform", "half-turn", "poles", "wraps", "box", "tumbling")
+    gains = run.gains()
     limit = 2 * (gains.kp * math.sqrt(3) * math.pi + 20 * gains.kv)
     erratic = _is_erratic(frame, limit)
     room = places.boundary_distance(frame)[["pole", "wrap"]].min(axis=1)
     spins = frame["start_set"] == "tumbling"
-    some(frame[spins], "tumbling start")
+    require_rows(frame[spins], "tumbling start")
     resting, turning = ([int((erratic & own & (room > one)).sum()) for one in MARGINS_RAD] for own in (~spins, spins))
-    spins_beside = results.probe("beside-pole")
-    beside = [some(spins_beside[spins_beside["at"] == one], "spin beside a pole") for one in MARGINS_RAD]
+    spins_beside = run.probe("beside-pole")
+    beside = [require_rows(spins_beside[spins_beside["at"] == one], "spin beside a pole") for one in MARGINS_RAD]
     passed = [int(_is_erratic(one, limit).sum()) for one in beside]
     counts = list(zip(resting, turning, passed, strict=True))
     widest = MARGINS_RAD[-1]
@@ -184,10 +184,10 @@ HEADS = (
 
 
 @claim("C30")
-def c30(results: Results) -> tuple[Word, Evidence]:
+def c30(run: Run) -> tuple[Word, Evidence]:
     """Both laws on bodies heavier and lighter than the model."""
-    gains = results.gains()
-    runs = [results.probe("wrong-inertia", regulator=law) for law in (THREE[0], LAW)]
+    gains = run.gains()
+    runs = [run.probe("wrong-inertia", regulator=law) for law in (THREE[0], LAW)]
     levels = sorted(set(runs[0]["at"]) - {1.0})
     lost = [[share(~settled(one[one["at"] == level])) for one in runs] for level in levels]
     times = [[_median(one, level) for one in runs] for level in levels]

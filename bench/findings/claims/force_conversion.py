@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from bench.base.errors import NoEvidence
 from bench.experiments.probes import coordinates
 from bench.experiments.suites import SUITES
+from bench.experiments.tables.run import WHOLE, Run, require_rows
 from bench.findings.amounts import count_of
 from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, ROUNDINGS
 from bench.findings.claims.side_by_side import PROBE
-from bench.findings.claims.tables import WHOLE, Results, evidence, some
-from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, word_of
+from bench.findings.claims.tables import evidence
+from bench.findings.claims.verdict import Evidence, Word, claim, word_of
 
 TURNS, BESIDE, DECADES = coordinates.TURNS, coordinates.BESIDE, coordinates.POLE_DECADES
 TURNS_ELSEWHERE = coordinates.TURNS_ELSEWHERE
@@ -22,19 +24,19 @@ LOST = 1e-12
 
 
 @claim("C21")
-def c21(results: Results) -> tuple[Word, Evidence]:
+def c21(run: Run) -> tuple[Word, Evidence]:
     """Judge the balance at random and polar orientations, the loop's work residual, and what poles lose."""
-    looped = results.table("compliance", task=PROBE, controller="hybrid", representation=COORDINATES)
+    looped = run.table("compliance", task=PROBE, controller="hybrid", representation=COORDINATES)
     looped = looped[(looped["outcome"] == "done") & looped["work_residual"].notna()]
-    looped = some(looped, f"work residual of {PROBE} by hybrid/{COORDINATES}")
-    poses, least = looped["pose"].nunique(), SUITES["quick"].in_contact.redundant_poses or 0
-    if results.folder and poses < least:
+    looped = require_rows(looped, f"work residual of {PROBE} by hybrid/{COORDINATES}")
+    poses, least = looped["pose"].nunique(), SUITES["quick"].sections["contact"]["redundant_poses"]
+    if run.has_folder and poses < least:
         raise NoEvidence(
             f"hybrid/{COORDINATES} ran {PROBE} at {poses} poses of the {least} that the claim "
             f"needs: {WHOLE}"
         )
     residual = looped["work_residual"] * np.cos(looped["beta"]) / EPS
-    every = results.probe("work")
+    every = run.probe("work")
     found = every[every["representation"] == COORDINATES]
     others = every[every["representation"] != COORDINATES]
     elsewhere = others.groupby("representation", observed=True)["power_gap"].max()

@@ -8,7 +8,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.probes.turns import DIRECTIONS, NEAR_GOAL_RAD, PERTURBED
-from bench.experiments.tables.read import converged
+from bench.experiments.tables.run import Run, converged, require_rows
 from bench.experiments.tables.statistics import quantile_estimate
 from bench.findings.amounts import capitalize, count, count_of, join_words, part_of
 from bench.findings.claims import places, tables
@@ -17,7 +17,7 @@ from bench.findings.claims.at_gains import on_every_engine, weakest_at_every_gai
 from bench.findings.claims.places import EXACT_RAD
 from bench.findings.claims.rotation_matrix import LOOSE_SETTLING, off_linear
 from bench.findings.claims.tables import (
-    Results,
+    episodes_of,
     evidence,
     lost,
     named_interval,
@@ -27,7 +27,6 @@ from bench.findings.claims.tables import (
     settled,
     settled_of,
     share,
-    some,
 )
 from bench.findings.claims.verdict import Evidence, Word, claim, word_of
 from bench.findings.theory import closed_form, held_goals
@@ -71,16 +70,17 @@ LAW, CURE = "linearized-euler", "linearized-euler-relative"
 
 @claim("C06")
 @on_every_engine
-def c06(results: Results, engine: str) -> tuple[Word, Evidence]:
+def c06(run: Run, engine: str) -> tuple[Word, Evidence]:
     """Shares that settle inside and outside the box, and the nearest boundary."""
-    every = results.episodes(LAW, engine, "uniform", "box")
+    every = episodes_of(run, LAW, engine, "uniform", "box")
     sure = converged(every)
     uniform = sure[sure["start_set"] == "uniform"]
     is_inside = uniform["alpha0"].abs() < math.pi / 2
-    box = some(sure[sure["start_id"].str.contains("box-grid|box-inside")], "start inside the box")
+    is_boxed = sure["start_id"].str.contains("box-grid|box-inside")
+    box = require_rows(sure[is_boxed], "start inside the box")
     parts = (uniform, uniform[is_inside], uniform[~is_inside], box)
     whole, inside, outside, directed = (share(settled(part)) for part in parts)
-    fails = results.free_body("boundaries", regulator=LAW)["fails_from_rad"].dropna()
+    fails = run.free_body("boundaries", regulator=LAW)["fails_from_rad"].dropna()
     least = min(inside.value, directed.value)
     word = word_of(
         least >= INSIDE_TIGHT and outside.value <= 1 - OUTSIDE_SHARE, least >= INSIDE_LOOSE
@@ -106,22 +106,23 @@ def c06(results: Results, engine: str) -> tuple[Word, Evidence]:
 
 @claim("C07")
 @on_every_engine
-def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
+def c07(run: Run, engine: str) -> tuple[Word, Evidence]:
     """Outcome and peak command of episodes that come near the pole, against the rest."""
-    frame = results.episodes(LAW, engine, "uniform")
+    frame = episodes_of(run, LAW, engine, "uniform")
     frame = frame[np.cos(frame["beta0"]) >= PASSING]
     near = frame["min_margin"] < PASSING
-    passing, rest = some(frame[near], "episode that comes near the pole"), some(frame[~near], "other episode")
+    passing = require_rows(frame[near], "episode that comes near the pole")
+    rest = require_rows(frame[~near], "other episode")
     lost_passing, lost_rest = lost(passing), lost(rest)
     peak, rest_peak = (
-        quantile_estimate(some(converged(part), "episode that converges")["peak_u"].to_numpy(), 0.5)
+        quantile_estimate(require_rows(converged(part), "episode that converges")["peak_u"].to_numpy(), 0.5)
         for part in (passing, rest)
     )
     ratio = peak.low / rest_peak.high
     is_extreme = lost_passing.low >= FAIL_EXTREME and lost_rest.high <= FAIL_REST
     is_raised = ratio >= PEAK_RAISED or lost_passing.low >= FAIL_RAISED * lost_rest.high
     word = word_of(ratio >= PEAK_EXTREME or is_extreme, is_raised)
-    poles = results.episodes(LAW, engine, "poles")
+    poles = episodes_of(run, LAW, engine, "poles")
     poles = poles[places.boundary_distance(poles)["pole"] > EXACT_RAD]
     beside = converged(poles)
     return word, evidence(
@@ -145,11 +146,11 @@ def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
 
 @claim("C08")
 @on_every_engine
-def c08(results: Results, engine: str) -> tuple[Word, Evidence]:
+def c08(run: Run, engine: str) -> tuple[Word, Evidence]:
     """Far goals with E_d subtracted and with angles from the goal; near goals with E_d subtracted."""
     runs = ((LAW, "goals"), (CURE, "goals"), (CURE, "uniform"))
-    base, cure, zero = (share(settled(results.episodes(law, engine, starts))) for law, starts in runs)
-    near = share(settled(results.probe("near-goal")))
+    base, cure, zero = (share(settled(episodes_of(run, law, engine, starts))) for law, starts in runs)
+    near = share(settled(run.probe("near-goal")))
     works = cure.high >= zero.low - CURE_SLACK and cure.low > base.high
     word = word_of(works and base.high <= FEW_GOALS and not near.k, works and base.high < MANY_GOALS)
     return word, evidence(
@@ -158,8 +159,8 @@ def c08(results: Results, engine: str) -> tuple[Word, Evidence]:
         measured from the goal reaches {cure} of the goals of the start set “goals”. If the goal is zero rotation, the
         law with angles measured from the goal settles from {zero} of the uniform starts. We linearized the closed loop
         near each goal. The linear model of the law that subtracts E_d is stable at
-        {percent(held_goals.held_share(results.gains()))} % of all goals. The model is stable at a goal if |alpha_d| is
-        below a limit. This limit is {math.degrees(math.acos(held_goals.least_cosine(0.0, results.gains()))):.1f}
+        {percent(held_goals.held_share(run.gains()))} % of all goals. The model is stable at a goal if |alpha_d| is
+        below a limit. This limit is {math.degrees(math.acos(held_goals.least_cosine(0.0, run.gains()))):.1f}
         degrees at beta_d = 0 and 90 degrees at the poles, and does not depend on gamma_d. The command u that the paper
         prints contains no goal.""",
         base.n + cure.n + zero.n + near.n,
@@ -170,17 +171,17 @@ def c08(results: Results, engine: str) -> tuple[Word, Evidence]:
 
 
 @claim("C29")
-def c29(results: Results) -> tuple[Word, Evidence]:
+def c29(run: Run) -> tuple[Word, Evidence]:
     """Small rotations at several gains, then larger ones at the run's."""
-    turns, period_s = results.probe("small-turn", regulator=LAW), results.period()
+    turns, period_s = run.probe("small-turn", regulator=LAW), run.period()
     each = turns[["kp", "kv", "at"]].assign(off=0.0, tick=0.0)
     closed = [closed_form.linear_settling(*gains) for gains in zip(each["kp"], each["kv"], strict=True)]
     each = each.assign(off=off_linear(turns, closed), tick=period_s / np.array(closed))
     most = each.groupby(["kp", "kv", "at"], as_index=False, sort=False).max()
     small, angles = most["off"], most["at"]
     small_ones = most.groupby("at", sort=False)["off"].max()
-    gains = results.gains()
-    larger = results.probe("larger-turn")
+    gains = run.gains()
+    larger = run.probe("larger-turn")
     larger = larger.assign(off=off_linear(larger, closed_form.linear_settling(*gains)))
     followed = larger.groupby("at")["off"].max() <= LOOSE_SETTLING
     within = max((angle for angle, is_followed in followed.items() if is_followed), default=0.0)
@@ -201,16 +202,16 @@ def c29(results: Results) -> tuple[Word, Evidence]:
     )
 
 
-def _beyond(results: Results) -> pd.DataFrame:
+def _beyond(run: Run) -> pd.DataFrame:
     """Return the linearized law's uniform starts from rest outside the linear region."""
-    rows = results.episodes(LAW, tables.MAIN_ENGINE, "uniform")
-    return some(rows[rows["angle0_rad"] >= BEYOND_RAD], "start outside the linear region")
+    rows = episodes_of(run, LAW, tables.MAIN_ENGINE, "uniform")
+    return require_rows(rows[rows["angle0_rad"] >= BEYOND_RAD], "start outside the linear region")
 
 
 @claim("C37")
-def c37(results: Results) -> tuple[Word, Evidence]:
+def c37(run: Run) -> tuple[Word, Evidence]:
     """Share of starts outside the linear region that settle within C35's time, in C06's box and beyond it."""
-    rows, small = _beyond(results), closed_form.linear_settling(*results.gains())
+    rows, small = _beyond(run), closed_form.linear_settling(*run.gains())
     in_time = pd.Series(tables.settling_times(rows) <= PACE * small, index=rows.index)
     in_box = rows["alpha0"].abs() < math.pi / 2
     every, inside, outside = share(in_time), share(in_time[in_box]), share(in_time[~in_box])
@@ -235,15 +236,15 @@ def c37(results: Results) -> tuple[Word, Evidence]:
 
 @claim("C38")
 @weakest_at_every_gain
-def c38(results: Results) -> tuple[Word, Evidence]:
+def c38(run: Run) -> tuple[Word, Evidence]:
     """Settling times and losses outside the linear region, against turns of one angle alone."""
-    rows, gains = _beyond(results), results.gains()
+    rows, gains = _beyond(run), run.gains()
     small = closed_form.linear_settling(*gains)
     off = np.abs(rows.loc[settled(rows), "settling_time_s"].to_numpy() / small - 1)
-    typical, unsettled = float(np.median(some(off, "start that settles"))), lost(rows)
-    turns = results.probe("one-angle")
+    typical, unsettled = float(np.median(require_rows(off, "start that settles"))), lost(rows)
+    turns = run.probe("one-angle")
     alone = float(off_linear(turns, small).max())
-    is_alone_linear = alone <= SAME + results.period() / small
+    is_alone_linear = alone <= SAME + run.period() / small
     is_slowed, loses = typical >= OFF, unsettled.low > 0.0
     word = word_of(is_alone_linear and is_slowed and loses, is_alone_linear and (is_slowed or loses))
     return word, evidence(
@@ -263,11 +264,11 @@ def c38(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("C39")
-def c39(results: Results) -> tuple[Word, Evidence]:
+def c39(run: Run) -> tuple[Word, Evidence]:
     """Errors under a moving goal from small starts, against the rotation-matrix law's."""
-    runs = (results.probe("moving-goal", regulator=law) for law in (CURE, THREE[0]))
+    runs = (run.probe("moving-goal", regulator=law) for law in (CURE, THREE[0]))
     near = (one[(one["angle0_rad"] <= SMALL_RAD) & (one["at"] > 0)] for one in runs)
-    own, other = (some(one, "small start under a moving goal") for one in near)
+    own, other = (require_rows(one, "small start under a moving goal") for one in near)
     both = own.merge(other, on=["at", "case"], suffixes=("", "_other"))
     ratio = (both["tail_max_rad"] / both["tail_max_rad_other"]).where(both["outcome"] == "settled", np.inf)
     by_speed = ratio.groupby(both["at"]).max()
@@ -299,9 +300,9 @@ TRACKED = (
 
 
 @claim("C45")
-def c45(results: Results) -> tuple[Word, Evidence]:
+def c45(run: Run) -> tuple[Word, Evidence]:
     """Derivatives of (2.11) at zero against (2.14)."""
-    terms = results.probe("linear-terms").set_index("case")["derivative"]
+    terms = run.probe("linear-terms").set_index("case")["derivative"]
 
     def matrix(by: str) -> np.ndarray:
         return np.array([[terms[f"{by}-{row}{column}"] for column in range(3)] for row in range(3)])

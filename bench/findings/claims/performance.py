@@ -9,16 +9,18 @@ from typing import Any
 
 import numpy as np
 
+from bench.base.errors import NoEvidence
 from bench.base.on_first_use import pd
 from bench.experiments.probes.turns import SPEED
+from bench.experiments.tables.run import MAIN_ENGINE, Run, require_rows
 from bench.experiments.tables.statistics import bootstrap, quantile, quantile_estimate
 from bench.findings.amounts import capitalize, count_of, join_words, part_of
 from bench.findings.claims import adequacy, tables
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy, is_without_memory, whose
 from bench.findings.claims.at_gains import at_every_gain, on_every_engine
 from bench.findings.claims.standing import ORDERED, Ledger
-from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, percent, settled, share, some
-from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, word_of
+from bench.findings.claims.tables import episodes_of, evidence, percent, settled, share
+from bench.findings.claims.verdict import Evidence, Word, claim, word_of
 from bench.findings.theory import closed_form
 from bench.law.attribution import ADAPTED, OURS, PUBLISHED
 
@@ -42,9 +44,9 @@ IN_WORDS = ["the rotation-matrix law", "the linearized law", "feedback lineariza
 
 
 @claim("C12")
-def c12(results: Results) -> tuple[Word, Evidence]:
+def c12(run: Run) -> tuple[Word, Evidence]:
     """Neighbours by time, and by flops and calls in both accountings."""
-    known = adequacy.of_three(results)
+    known = adequacy.of_three(run)
     pairs = [known.stand(*pair) for pair in itertools.pairwise(THREE)]
     if not all(one.sign for one in pairs):
         raise NoEvidence("flops and calls say different things, and no time decides: run bench time")
@@ -106,13 +108,13 @@ def c12(results: Results) -> tuple[Word, Evidence]:
 @claim("C17")
 @at_every_gain
 @on_every_engine
-def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
+def c17(run: Run, engine: str) -> tuple[Word, Evidence]:
     """Return the three laws against the three tests of performance and the test of cost."""
-    linear = closed_form.linear_settling(*results.gains())
-    by_name = {one.name: one for one in adequacy.every(results, engine)}
+    linear = closed_form.linear_settling(*run.gains())
+    by_name = {one.name: one for one in adequacy.every(run, engine)}
     if not set(THREE) <= set(by_name):
         raise NoEvidence(f"not all of {', '.join(THREE)} ran by {engine}: run a suite without narrowing it")
-    three, known = [by_name[name] for name in THREE], adequacy.of_three(results)
+    three, known = [by_name[name] for name in THREE], adequacy.of_three(run)
     every = {name: adequacy.examine(law, known, linear, {}) for name, law in zip(NAMES, three, strict=True)}
     asked = {name: tested.among(adequacy.BOTH) for name, tested in every.items()}
     adequate = [name for name, tested in asked.items() if tested.passes]
@@ -140,8 +142,8 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
     within = "fewer than 99 % of uniform starts settle"
     if np.isfinite(three[0].pace.value):
         within = f"99 % of uniform starts settle within {tables.named_interval(three[0].pace, '.2f', ' s')}"
-    spins = results.probe("beside-pole")
-    beside = some(spins[spins["at"] == BESIDE_RAD], "spin beside a pole")
+    spins = run.probe("beside-pole")
+    beside = require_rows(spins[spins["at"] == BESIDE_RAD], "spin beside a pole")
     return word, evidence(
         f"""{fine} adequate in both cost and performance. The settling time of a small error is {linear:.3f} s. Starts
         that spin at {SPEED:g} rad/s near a pole do not count for the verdict. Feedback linearization settles
@@ -192,12 +194,12 @@ def _placed(law: Adequacy, tested: adequacy.Tested, known: Ledger) -> tuple[str,
 
 @claim("C27")
 @on_every_engine
-def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
+def c27(run: Run, engine: str) -> tuple[Word, Evidence]:
     """Each later law against the eight tests."""
-    later = [one for one in adequacy.every(results, engine) if one.name not in PAPERS]
-    held = adequacy.held(results, adequacy.HELD_RAD)
-    some([one for one in later if one.name in held], f"later law by {engine} on which noise was tried")
-    known, small = adequacy.of_three(results), closed_form.linear_settling(*results.gains())
+    later = [one for one in adequacy.every(run, engine) if one.name not in PAPERS]
+    held = adequacy.held(run, adequacy.HELD_RAD)
+    require_rows([one for one in later if one.name in held], f"later law by {engine} on which noise was tried")
+    known, small = adequacy.of_three(run), closed_form.linear_settling(*run.gains())
     if not known.times:
         raise NoEvidence("no law was timed, and flops and calls alone give no cost: run bench time")
     tested = {law.name: adequacy.examine(law, known, small, held) for law in later}
@@ -270,18 +272,18 @@ def _answer(law: Adequacy, tested: adequacy.Tested, known: Ledger) -> tuple[str,
     )
 
 
-def _of_the_three(results: Results) -> list[pd.DataFrame]:
+def _of_the_three(run: Run) -> list[pd.DataFrame]:
     """Return the uniform starts that all laws ran; unconverged episodes count as unsettled."""
-    found = [results.episodes(name, MAIN_ENGINE, "uniform") for name in NAMES]
+    found = [episodes_of(run, name, MAIN_ENGINE, "uniform") for name in NAMES]
     found = [one.assign(outcome=one["outcome"].astype(str).where(one["converged"] != "no", "unknown")) for one in found]
     return tables.same_starts(found)
 
 
 @claim("C31")
 @at_every_gain
-def c31(results: Results) -> tuple[Word, Evidence]:
+def c31(run: Run) -> tuple[Word, Evidence]:
     """Shares that settle, and ratios of the time in which nearly all do."""
-    laws = _of_the_three(results)
+    laws = _of_the_three(run)
     matrix, linearized, mine = ranges = [share(settled(one)) for one in laws]
     ratios = [_gain(tables.settling_times(laws[-1]), tables.settling_times(one)) for one in laws[:-1]]
     is_better = all(ratio.low >= DRAMATIC for ratio in ratios) and mine.low > linearized.high
@@ -310,9 +312,9 @@ def c31(results: Results) -> tuple[Word, Evidence]:
     )
 
 
-def feedback_gain(results: Results) -> Any:
+def feedback_gain(run: Run) -> Any:
     """Return how many times as long 99 % of the starts take with the rotation-matrix law, at the run's gains."""
-    matrix, _, feedback = _of_the_three(results)
+    matrix, _, feedback = _of_the_three(run)
     return _gain(tables.settling_times(feedback), tables.settling_times(matrix))
 
 
@@ -329,9 +331,9 @@ def _gain(own: np.ndarray, other: np.ndarray) -> Any:
 
 
 @claim("C35")
-def c35(results: Results) -> tuple[Word, Evidence]:
+def c35(run: Run) -> tuple[Word, Evidence]:
     """Shares and medians of the three."""
-    small, laws = closed_form.linear_settling(*results.gains()), _of_the_three(results)
+    small, laws = closed_form.linear_settling(*run.gains()), _of_the_three(run)
     found = [
         (law, share(settled(rows)), quantile_estimate(tables.settling_times(rows), 0.5))
         for law, rows in zip(IN_WORDS, laws, strict=True)
@@ -354,10 +356,10 @@ def c35(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("C36")
-def c36(results: Results) -> tuple[Word, Evidence]:
+def c36(run: Run) -> tuple[Word, Evidence]:
     """Return which tests of performance each of the three lacks, exact boundary points included."""
-    small, known = closed_form.linear_settling(*results.gains()), adequacy.of_three(results)
-    three = some([one for one in adequacy.every(results, MAIN_ENGINE) if one.name in THREE], "law of the paper")
+    small, known = closed_form.linear_settling(*run.gains()), adequacy.of_three(run)
+    three = require_rows([one for one in adequacy.every(run, MAIN_ENGINE) if one.name in THREE], "law of the paper")
     tested = {law.name: adequacy.examine(law, known, small, {}).among(TESTS) for law in three}
     in_words = dict(zip(THREE, IN_WORDS, strict=True))
     told = " ".join(

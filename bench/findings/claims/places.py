@@ -9,7 +9,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.probes.commands import EXACT_RAD
-from bench.findings.claims.tables import some
+from bench.experiments.tables.run import require_rows
 
 QUAT = ("quat_w", "quat_x", "quat_y", "quat_z")
 GOAL_QUAT = tuple(f"goal_{name}" for name in QUAT)
@@ -43,7 +43,7 @@ def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:
 
 def at_boundary(frame: pd.DataFrame, place: str, what: str) -> pd.DataFrame:
     """Return the starts that are exactly on a pole, a wrap or at 180°; NoEvidence: there is none."""
-    return some(frame[boundary_distance(frame)[place] <= EXACT_RAD], what)
+    return require_rows(frame[boundary_distance(frame)[place] <= EXACT_RAD], what)
 
 
 def goal_to_pole(frame: pd.DataFrame, columns: Sequence[str] = GOAL_QUAT) -> pd.Series:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from bench.experiments.probes import variables
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.statistics import quantile_estimate
 from bench.findings.amounts import capitalize, count_of
-from bench.findings.claims.tables import Results, evidence
+from bench.findings.claims.tables import evidence
 from bench.findings.claims.verdict import Evidence, Word, claim, word_of
 
 MATRICES, PAIRS = variables.MATRICES, variables.PAIRS
@@ -20,9 +21,9 @@ UNEVEN = 1.5
 
 
 @claim("C40")
-def c40(results: Results) -> tuple[Word, Evidence]:
+def c40(run: Run) -> tuple[Word, Evidence]:
     """Divisors of every elimination, and a second rotation with the same elements kept."""
-    trios = results.probe("elimination")
+    trios = run.probe("elimination")
     possible = trios[trios["largest_divisor"] > SAME]
     off, left = float(possible["divisor_gap"].max()), float(possible["second_gap"].max())
     apart = float(possible["second_difference"].min())
@@ -43,9 +44,9 @@ def c40(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("C41")
-def c41(results: Results) -> tuple[Word, Evidence]:
+def c41(run: Run) -> tuple[Word, Evidence]:
     """A second set of variables for random orientations, and sets for a degenerate one, of four representations."""
-    sets = results.probe("two-sets")
+    sets = run.probe("two-sets")
     twice, spread = float(sets["two_sets_gap"].max()), float(sets["many_sets_gap"].max())
     word = word_of(twice <= SAME and spread <= SAME, False)
     return word, evidence(
@@ -63,9 +64,9 @@ def c41(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("C42")
-def c42(results: Results) -> tuple[Word, Evidence]:
+def c42(run: Run) -> tuple[Word, Evidence]:
     """Smallest singular value of B of every form at two middle angles, and at random ones."""
-    rows = results.probe("twelve-forms")
+    rows = run.probe("twelve-forms")
     form = rows["case"].astype(str).str.partition("-")[0]
     forms = form.nunique()
     least, regular = float(rows["least_degenerate_gap"].max()), float(rows["least_regular"].min())
@@ -81,9 +82,9 @@ def c42(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("C43")
-def c43(results: Results) -> tuple[Word, Evidence]:
+def c43(run: Run) -> tuple[Word, Evidence]:
     """Lengths of straight ways in two sets of coordinates, and how unevenly errors of the angles turn the hand."""
-    lines = results.probe("straight-line")
+    lines = run.probe("straight-line")
     longer = quantile_estimate(lines["length_ratio"].to_numpy(), 0.5)
     uneven = float(lines["unevenness"].median())
     return word_of(longer.value >= LONGER and uneven >= UNEVEN, False), evidence(

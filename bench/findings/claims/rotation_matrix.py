@@ -9,6 +9,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.probes.turns import GAINS
+from bench.experiments.tables.run import MAIN_ENGINE, Run, require_rows
 from bench.experiments.tables.statistics import bootstrap
 from bench.findings.amounts import capitalize, count, count_of
 from bench.findings.claims import places
@@ -16,8 +17,7 @@ from bench.findings.claims.adequacy import CALLS
 from bench.findings.claims.at_gains import on_every_engine
 from bench.findings.claims.places import EXACT_RAD, at_boundary
 from bench.findings.claims.tables import (
-    MAIN_ENGINE,
-    Results,
+    episodes_of,
     evidence,
     named_interval,
     percent,
@@ -25,7 +25,6 @@ from bench.findings.claims.tables import (
     settled,
     settling_times,
     share,
-    some,
 )
 from bench.findings.claims.verdict import Evidence, Word, claim, word_of
 from bench.findings.theory import closed_form
@@ -64,9 +63,9 @@ ZERO_ERROR = EPS = 2.0**-52
 
 @claim("C01")
 @on_every_engine
-def c01(results: Results, engine: str) -> tuple[Word, Evidence]:
+def c01(run: Run, engine: str) -> tuple[Word, Evidence]:
     """Outcomes and final energies of uniform, half-turn and tumbling starts."""
-    frame = results.episodes(LAW, engine, "uniform", "half-turn", "tumbling")
+    frame = episodes_of(run, LAW, engine, "uniform", "half-turn", "tumbling")
     speed = (frame[list(places.OMEGA)] ** 2).sum(axis=1)
     gained = np.cos(frame["angle0_rad"]) - np.cos(frame["final_angle_rad"]) - speed / (2 * frame["kp"])
     unstable = int((frame["outcome"].isin(BROKEN[:3]) | (gained > ENERGY_SLACK)).sum())
@@ -85,15 +84,16 @@ def c01(results: Results, engine: str) -> tuple[Word, Evidence]:
 
 
 @claim("C02")
-def c02(results: Results) -> tuple[Word, Evidence]:
+def c02(run: Run) -> tuple[Word, Evidence]:
     """Small rotations at several gains, and the small steps of the run."""
-    small, period_s = results.probe("small-turn", regulator=LAW), results.period()
+    small, period_s = run.probe("small-turn", regulator=LAW), run.period()
     each_closed = [closed_form.linear_settling(*gains) for gains in zip(small["kp"], small["kv"], strict=True)]
     off = [off_linear(small, each_closed)]
     allowed = [period_s / np.array(each_closed) + small["at"].to_numpy() ** 2]
-    steps = results.episodes(LAW, MAIN_ENGINE, "goals")
-    steps = some(steps[steps["angle0_rad"].between(1e-3, 0.11)], "small step of the start set goals")
-    closed = closed_form.linear_settling(*results.gains())
+    steps = episodes_of(run, LAW, MAIN_ENGINE, "goals")
+    is_small = steps["angle0_rad"].between(1e-3, 0.11)
+    steps = require_rows(steps[is_small], "small step of the start set goals")
+    closed = closed_form.linear_settling(*run.gains())
     off += [(steps["settling_time_s"] / closed - 1).abs().fillna(np.inf)]
     allowed += [steps["dt_s"] / closed + steps["angle0_rad"] ** 2]
     pairs = small[["kp", "kv"]].drop_duplicates()
@@ -120,20 +120,21 @@ def off_linear(turns: pd.DataFrame, closed_s: Any) -> np.ndarray:
 
 @claim("C03")
 @on_every_engine
-def c03(results: Results, engine: str) -> tuple[Word, Evidence]:
+def c03(run: Run, engine: str) -> tuple[Word, Evidence]:
     """Judge the settling time by angle, its slope towards 180°, and the exact 180° rotations."""
-    uniform = results.episodes(LAW, engine, "uniform")
-    sure = some(uniform[settled(uniform)], "uniform start that settles")
+    uniform = episodes_of(run, LAW, engine, "uniform")
+    sure = require_rows(uniform[settled(uniform)], "uniform start that settles")
     growth = bootstrap(sure[["angle0_rad", "settling_time_s"]].to_numpy(float), _slope)
-    turns = results.episodes(LAW, engine, "half-turn")
+    turns = episodes_of(run, LAW, engine, "half-turn")
     short = places.boundary_distance(turns)["half_turn"]
     decades = -np.log10(short.clip(lower=1e-17))
     low, high = SLOPE_DECADES
-    fitted = some(turns[decades.between(low - 0.5, high + 0.5) & settled(turns)], "half-turn start that settles")
+    is_fitted = decades.between(low - 0.5, high + 0.5) & settled(turns)
+    fitted = require_rows(turns[is_fitted], "half-turn start that settles")
     slope = np.polyfit(decades[fitted.index], fitted["settling_time_s"], 1)[0]
-    closed = closed_form.decade_slope(*results.gains())
+    closed = closed_form.decade_slope(*run.gains())
     off = abs(slope / closed - 1)
-    exact = some(turns[short <= EXACT_RAD], "exact 180° rotation")
+    exact = require_rows(turns[short <= EXACT_RAD], "exact 180° rotation")
     stay = exact[~settled(exact)]
     slowest = turns.loc[short > EXACT_RAD, "settling_time_s"].max()
     is_infinite = bool((np.abs(stay["final_angle_rad"] - np.pi) <= AT_HALF_TURN).any())
@@ -161,10 +162,10 @@ def _slope(pairs: np.ndarray, axis: Sequence[float] | np.ndarray) -> Any:
 
 @claim("C04")
 @on_every_engine
-def c04(results: Results, engine: str) -> tuple[Word, Evidence]:
+def c04(run: Run, engine: str) -> tuple[Word, Evidence]:
     """Judge the error and its three cross products at exact 180° rotations, and how the episodes end."""
-    exact = at_boundary(results.episodes(LAW, engine, "half-turn"), "half_turn", "exact 180° rotation")
-    errors = errors_at(results, exact)
+    exact = at_boundary(episodes_of(run, LAW, engine, "half-turn"), "half_turn", "exact 180° rotation")
+    errors = errors_at(run, exact)
     largest, products = float(errors["error"].max()), errors["largest_product"]
     parallel = int((products <= ZERO_ERROR).sum())
     is_zero = largest <= ZERO_ERROR
@@ -182,19 +183,19 @@ def c04(results: Results, engine: str) -> tuple[Word, Evidence]:
 
 
 @claim("C05")
-def c05(results: Results) -> tuple[Word, Evidence]:
+def c05(run: Run) -> tuple[Word, Evidence]:
     """|e| over sin(angle), at every start of the run and as low as a search gets; what cancels at 180° rotations."""
-    every = results.episodes(LAW, MAIN_ENGINE)  # refuses a run that lacks starts
-    errors = errors_at(results, every)
+    every = episodes_of(run, LAW, MAIN_ENGINE)  # refuses a run that lacks starts
+    errors = errors_at(run, every)
     is_away = errors["at"].between(AWAY_RAD, np.pi - AWAY_RAD)
-    away = some(errors[is_away], "start away from 0 and 180°")
-    search = results.probe("error-search")
+    away = require_rows(errors[is_away], "start away from 0 and 180°")
+    search = run.probe("error-search")
     states = int(search["evaluations"].sum())
     ratios = away["error"] / np.sin(away["at"])
     lowest = min(float(ratios.min()), float(search["least_ratio"].min()))
     least = min(float(away["error"].min()), float(search["error"].min()))
-    half_turns = results.episodes(LAW, MAIN_ENGINE, "half-turn")
-    exact = errors_at(results, at_boundary(half_turns, "half_turn", "exact 180° rotation"))
+    half_turns = episodes_of(run, LAW, MAIN_ENGINE, "half-turn")
+    exact = errors_at(run, at_boundary(half_turns, "half_turn", "exact 180° rotation"))
     cancel = int(((exact["error"] <= ZERO_ERROR) & (exact["largest_product"] > ZERO_ERROR)).sum())
     readings = (least < NEAR_ZERO, cancel > 0)
     return word_of(all(readings), any(readings)), evidence(
@@ -211,23 +212,23 @@ def c05(results: Results) -> tuple[Word, Evidence]:
     )
 
 
-def errors_at(results: Results, frame: pd.DataFrame) -> pd.DataFrame:
+def errors_at(run: Run, frame: pd.DataFrame) -> pd.DataFrame:
     """Return what the probe `error` has of the starts of some episodes, a row a start."""
-    errors = results.probe("error")
-    return some(errors[errors["case"].isin(set(frame["start_id"]))], "start of the probe 'error'")
+    errors = run.probe("error")
+    return require_rows(errors[errors["case"].isin(set(frame["start_id"]))], "start of the probe 'error'")
 
 
 @claim("C32")
-def c32(results: Results) -> tuple[Word, Evidence]:
+def c32(run: Run) -> tuple[Word, Evidence]:
     """Judge the rounding of e against exact fractions, the parts of the law, and how its episodes end."""
-    results.episodes(LAW, MAIN_ENGINE)  # refuses a run that lacks starts
-    every = results.free_body("episodes", task="free-body", regulator=LAW)
+    episodes_of(run, LAW, MAIN_ENGINE)  # refuses a run that lacks starts
+    every = run.free_body("episodes", task="free-body", regulator=LAW)
     ended = int(every["outcome"].isin(BROKEN).sum())
-    errors = errors_at(results, every)
+    errors = errors_at(run, every)
     off = errors["rounding_gap"]
     inner = np.minimum(errors["at"], np.pi - errors["at"]) >= CLOSEST_RAD * (1 - DIGITS)
     relative = (off / errors["error"].clip(lower=EPS))[inner]
-    costs = some(results.free_body("costs", regulator=LAW), f"cost of {LAW}")
+    costs = require_rows(run.free_body("costs", regulator=LAW), f"cost of {LAW}")
     asked = int(costs[["div", *CALLS]].to_numpy().sum())
     sound = bool(np.isfinite(errors["error"]).all() and off.max() <= ROUNDINGS * EPS and not asked and not ended)
     broken = ", ".join(f"'{outcome}'" for outcome in BROKEN[:-1])

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from bench.base.on_first_use import ScipyRotation, pd
-from bench.findings.claims.tables import Results, evidence, some
+from bench.experiments.tables.run import Run, require_rows
+from bench.findings.claims.tables import evidence
 from bench.findings.claims.verdict import Evidence, Word
 from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM, hybrid
 
@@ -32,15 +33,15 @@ DECIDES = f"""
 
 
 def by_either_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[..., tuple[Word, Evidence]]:
-    """Wrap a judging function of (results, forms): if both ways to control forces give one word, that is the word.
+    """Wrap a judging function of (run, forms): if both ways to control forces give one word, that is the word.
 
     Else it depends on how it is read, for the paper's sentence says of neither that it is meant.
     """
 
     @functools.wraps(decide)
-    def judge(results: Results) -> Any:
-        word, papers = decide(results, (PAPERS_FORM,))
-        other, ours = decide(results, ACCELERATION_FORMS)
+    def judge(run: Run) -> Any:
+        word, papers = decide(run, (PAPERS_FORM,))
+        other, ours = decide(run, ACCELERATION_FORMS)
         instead = (
             f"With commanded accelerations, the claim {other}. {ours.instead} "
             f"With forces by the Jacobian transpose, the claim {word}. "
@@ -58,12 +59,12 @@ def by_either_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[...
 
 
 def by_papers_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[..., tuple[Word, Evidence]]:
-    """Wrap a judging function of (results, forms) to ask the paper's force control, then commanded accelerations."""
+    """Wrap a judging function of (run, forms) to ask the paper's force control, then commanded accelerations."""
 
     @functools.wraps(decide)
-    def judge(results: Results) -> Any:
-        word, papers = decide(results, (PAPERS_FORM,))
-        other, ours = decide(results, ACCELERATION_FORMS)
+    def judge(run: Run) -> Any:
+        word, papers = decide(run, (PAPERS_FORM,))
+        other, ours = decide(run, ACCELERATION_FORMS)
         return word, evidence(
             f"""With forces by the Jacobian transpose, the claim {word}. {papers}
             With commanded accelerations, the claim {other}. {ours}""",
@@ -75,14 +76,14 @@ def by_papers_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[...
     return judge
 
 
-def beside_base(results: Results, representation: str, orders: tuple[str, ...], forms: tuple[str, ...]) -> pd.DataFrame:
+def beside_base(run: Run, representation: str, orders: tuple[str, ...], forms: tuple[str, ...]) -> pd.DataFrame:
     """Return rows of wrench-probe of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`).
 
     A row each arm, form, pose and order that both have; cos_beta and from_zero (the angle of R) [rad] are added.
     """
-    both = paired(results, representation, forms, task=PROBE)
+    both = paired(run, representation, forms, task=PROBE)
     for order in orders:
-        some(
+        require_rows(
             both[both["complies"] == order],
             f"pose of {PROBE} by hybrid/{representation} and {BASE}, +{' or +'.join(forms)}, {order}",
         )
@@ -92,10 +93,10 @@ def beside_base(results: Results, representation: str, orders: tuple[str, ...], 
     return both.assign(cos_beta=np.cos(both["beta"]), from_zero=from_zero)
 
 
-def paired(results: Results, representation: str, forms: tuple[str, ...], **words: str) -> pd.DataFrame:
+def paired(run: Run, representation: str, forms: tuple[str, ...], **words: str) -> pd.DataFrame:
     """Rows of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`), of some forms."""
-    own = results.table("compliance", controller="hybrid", representation=representation, **words)
-    base = results.table("compliance", controller=BASE, **words)
+    own = run.table("compliance", controller="hybrid", representation=representation, **words)
+    base = run.table("compliance", controller=BASE, **words)
     own, base = (one[one["form"].isin(forms)] for one in (own, base))
     own, base = (one.assign(**{name: one[name].astype(str) for name in PAIRED}) for one in (own, base))
     return own.merge(base, on=list(PAIRED), suffixes=("", "_base"))

@@ -1,210 +1,89 @@
-"""What judging functions read: a run's tables, the engines that they need, shares with their intervals."""
+"""What judging functions make of rows: those with enough starts, shares and times with intervals."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Sized
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from bench.base.errors import NoEvidence
 from bench.base.on_first_use import pd
-from bench.experiments.tables import read
+from bench.experiments.tables.run import (
+    FREE_BODY,
+    MAIN_ENGINE,
+    PAPERS_COORDINATES,
+    WHOLE,
+    Run,
+    converged,
+    require_rows,
+)
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.amounts import count_of
-from bench.findings.claims.verdict import Evidence, NoEvidence
+from bench.findings.claims.verdict import Evidence
 from bench.findings.start_sets import describe_lacking, least_starts
-from bench.law.inputs import Gains
 
 if TYPE_CHECKING:
     from bench.experiments.tables.statistics import Estimate
     from bench.findings.maps import Spun
 
-MAIN_ENGINE = "ideal-rk4"
 CHECK_ENGINES = ("ideal-held", "native")
 SETTLED = "settled"
-WHOLE = "run the suite 'quick', 'default' or 'full' without narrowing it"
-
-PAPERS_COORDINATES = ("", "zyx-euler")
-"""None, or Z-Y-X angles: what chapter 6 runs its laws in. In others they are later laws."""
 
 
-TIMED = (
-    *("what", "engine", "arm", "regulator", "representation", "jacobian", "inverse"),
-    *("ns_per_tick", "ratio", "ratio_low", "ratio_high", "ticks", "machine"),
-)
+def episodes_of(run: Run, regulator: str, engine: str, *start_sets: str) -> pd.DataFrame:
+    """Return episodes of a law on the free body, in the paper's coordinates, from some start sets.
 
-
-CASE = (
-    *("regulator", "representation", "jacobian", "inverse", "arm"),
-    *("case", "kp", "kv", "at", "outcome"),
-)
-"""Columns of probes.parquet that its measures of one case share."""
-
-
-class Results:
-    """The tables of one run, read when first asked for; `frames` puts others in their place.
-
-    Attributes:
-        others: Runs that stand in the place of results/gains and results/reference; None for those.
-        is_as_stored: Whether nothing stands in another's place.
-        chosen: The rows that were asked for, as (table, condition); a claim clears it.
+    NoEvidence: there are fewer than a whole suite has.
     """
-
-    def __init__(
-        self,
-        folder: Path | None,
-        frames: dict | None = None,
-        timings: Path = RESULTS / "timings",
-        maps: Path = RESULTS / "maps",
-        others: Sequence[Results] | None = None,
-    ):
-        self.folder = folder
-        self.is_as_stored = folder is not None and not (frames or others)
-        self.frames = dict(frames or {})
-        self.timings_folder, self.maps_folder = timings, maps
-        self.others = others
-        self.chosen: list[tuple[str, str]] = []
-        self._chosen: dict[tuple, pd.DataFrame] = {}
-        self._spun: dict[tuple[str, str], list[Spun]] = {}
-
-    def table(self, name: str, **words: str) -> pd.DataFrame:
-        """Rows of one table that have these words, chosen once and shared; there may be none."""
-        return self._note(name, query_of(words), self._choose(name, words))
-
-    def probe(self, name: str, **words: str) -> pd.DataFrame:
-        """Return what a probe measured, a row a case and a column a measure; NoEvidence: the run does not have it."""
-        return widen(some(self.table("probes", probe=name, **words), f"row of the probe '{name}'"))
-
-    def _note(self, name: str, condition: str, rows: pd.DataFrame) -> pd.DataFrame:
-        """Keep the condition of rows that were asked for, if there are any, and return the rows."""
-        if len(rows):
-            self.chosen.append((name, condition))
-        return rows
-
-    def _choose(self, name: str, words: dict[str, str]) -> pd.DataFrame:
-        asked = (name, *sorted(words.items()))
-        if asked not in self._chosen:
-            if name not in self.frames:
-                if self.folder is None:
-                    raise NoEvidence(f"table '{name}': there is no folder to read it from; give one, or its frame")
-                self.frames[name] = read.table(self.folder, name)
-            self._chosen[asked] = read.chosen(self.frames[name], words)
-        return self._chosen[asked]
-
-    def free_body(self, name: str, **words: str) -> pd.DataFrame:
-        """Rows of one table that have these words and are about the free body, in the paper's coordinates."""
-        return self._note(name, _free_body_query(words), self._choose_free_body(name, words))
-
-    def _choose_free_body(self, name: str, words: dict[str, str]) -> pd.DataFrame:
-        frame = self._choose(name, {**read.FREE_BODY, **words})
-        return frame[frame["representation"].isin(PAPERS_COORDINATES)]
-
-    def episodes(self, regulator: str, engine: str, *start_sets: str) -> pd.DataFrame:
-        """Return episodes of a law on the free body from some start sets; NoEvidence: fewer than a whole suite has."""
-        words = {"task": "free-body", "regulator": regulator, "engine": engine}
-        frame, condition = self._choose_free_body("episodes", words), _free_body_query(words)
-        if start_sets:
-            frame = frame[frame["start_set"].isin(start_sets)]
-            condition = f"{condition} and {query_of({'start_set': start_sets})}"
-        self._note("episodes", condition, frame)
-        some(frame, f"episode of {regulator} by {engine} from {', '.join(start_sets) or 'any start set'}")
-        self.check_starts(frame, f"{regulator} by {engine}", least_starts(engine), *start_sets)
-        return frame
-
-    def check_starts(self, frame: pd.DataFrame, what: str, least: Mapping[str, int], *start_sets: str) -> None:
-        """Refuse a run with fewer starts of a set, of those named or all, than a claim needs; not tables alone."""
-        lacking = self.folder and describe_lacking(frame, least, *start_sets)
-        if lacking:
-            raise NoEvidence(f"{what} ran from fewer starts than the claim needs ({lacking}): {WHOLE}")
-
-    def _any_episode(self) -> pd.Series:
-        rows = self.table("episodes", **read.FREE_BODY, engine=MAIN_ENGINE)
-        return some(rows, f"episode by {MAIN_ENGINE}").iloc[0]
-
-    def gains(self) -> Gains:
-        """Return the run's gains."""
-        row = self._any_episode()
-        return Gains(float(row["kp"]), float(row["kv"]))
-
-    def period(self) -> float:
-        """Return the run's control period [s]."""
-        return float(self._any_episode()["dt_s"])
-
-    def spun(self, law: str, engine: str = MAIN_ENGINE) -> list[Spun]:
-        """Return starts of a law at stated speeds, with the run's gains, from the maps in the repository.
-
-        There are none where no map has the law with these gains by this engine.
-        """
-        from bench.findings.maps import count_in, counted, spun
-
-        if (law, engine) not in self._spun:
-            if "counted" not in self.frames:
-                given = self.frames.get("map")
-                self.frames["counted"] = count_in(self.maps_folder) if given is None else counted(given)
-            self._spun[law, engine] = spun(self.frames["counted"], law, self.gains(), engine)
-        return self._spun[law, engine]
-
-    def timings(self) -> pd.DataFrame:
-        """Time per tick of laws alone, on every machine that was timed, a column `machine` added; maybe empty."""
-        every = self._all_timings()
-        return every[(every["what"] == "law") & (every["ticks"] > 0)]
-
-    def controller_timings(self) -> pd.DataFrame:
-        """Time per tick of whole controllers of arms, on every machine that was timed; maybe empty."""
-        every = self._all_timings().reindex(columns=[*TIMED, "contender"])
-        compiled = (every["what"] == "engine") & (every["engine"] == "native") & (every["jacobian"] != "")
-        return every[compiled & (every["ticks"] > 0)]
-
-    def machines(self) -> list[pd.DataFrame]:
-        """Return the times of each machine that was timed, its name in a column `machine`."""
-        from bench.experiments.tables.store import read_arrow
-
-        paths = sorted(self.timings_folder.glob("*.parquet"))
-        return [read_arrow(path, "timings").to_pandas().assign(machine=path.stem) for path in paths]
-
-    def _all_timings(self) -> pd.DataFrame:
-        frames = self.machines() + ([self.frames["timings"]] if "timings" in self.frames else [])
-        every = pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=TIMED)
-        return read.with_contender(every)
+    words: dict[str, str | tuple[str, ...]] = {
+        "task": "free-body",
+        "regulator": regulator,
+        "engine": engine,
+        **FREE_BODY,
+        "representation": PAPERS_COORDINATES,
+    }
+    if start_sets:
+        words["start_set"] = start_sets
+    named = ", ".join(start_sets) or "any start set"
+    rows = run.table("episodes", **words)
+    require_rows(rows, f"episode of {regulator} by {engine} from {named}")
+    check_starts(run, rows, f"{regulator} by {engine}", least_starts(engine), *start_sets)
+    return rows
 
 
-Rows = TypeVar("Rows", bound=Sized)
+def check_starts(
+    run: Run,
+    rows: pd.DataFrame,
+    what: str,
+    least: Mapping[str, int],
+    *start_sets: str,
+) -> None:
+    """Refuse a run with fewer starts of a set than a claim needs; frames alone may have fewer.
+
+    start_sets: those that are counted; all of `least` if none is named.
+    """
+    lacking = run.has_folder and describe_lacking(rows, least, *start_sets)
+    if lacking:
+        raise NoEvidence(
+            f"{what} ran from fewer starts than the claim needs ({lacking}): {WHOLE}"
+        )
 
 
-def some(frame: Rows, what: str) -> Rows:
-    """Return the frame, or a list, if it has rows; NoEvidence: it has none."""
-    if len(frame) == 0:
-        raise NoEvidence(f"no {what}: {WHOLE}")
-    return frame
+def starts_at_speed(run: Run, law: str, engine: str = MAIN_ENGINE) -> list[Spun]:
+    """Return starts of a law at stated speeds, with the run's gains, from the maps of results/maps.
 
+    There are none where no map has the law with these gains by this engine.
+    """
+    from bench.findings.maps import count_in, counted, spun
 
-def widen(rows: pd.DataFrame) -> pd.DataFrame:
-    """Return rows of probes.parquet with a column for each measure, a row a case, in the order of the rows."""
-    number = rows.groupby(list(CASE), sort=False, observed=True).ngroup().to_numpy()
-    measures, values = rows["measure"].astype(str).to_numpy(), rows["value"].to_numpy(float)
-    found = rows.loc[~pd.Series(number, index=rows.index).duplicated(), list(CASE)]
-    found = found.reset_index(drop=True)
-    for measure in dict.fromkeys(measures):
-        is_it = measures == measure
-        column = np.full(len(found), np.nan)
-        column[number[is_it]] = values[is_it]
-        found[measure] = column
-    return found
-
-
-def query_of(words: Mapping[str, str | Sequence[str]]) -> str:
-    """Return the condition of rows with a word, or one of some words, in each column, as DataFrame.query takes it."""
-    conditions = []
-    for column, word in words.items():
-        is_one = isinstance(word, str)
-        conditions.append(f"{column} == {word!r}" if is_one else f"{column} in {list(word)}")
-    return " and ".join(conditions)
-
-
-def _free_body_query(words: Mapping[str, str]) -> str:
-    """Return the condition of rows about the free body in the paper's coordinates."""
-    return query_of({**words, **read.FREE_BODY, "representation": PAPERS_COORDINATES})
+    if "counted" in run.frames:
+        counts = run.frames["counted"]
+    elif "map" in run.frames:
+        counts = counted(run.frames["map"])
+    else:
+        counts = count_in(RESULTS / "maps")
+    return spun(counts, law, run.gains(), engine)
 
 
 WHOLE_PERCENT = 100.0
@@ -282,7 +161,7 @@ def lost(frame: pd.DataFrame) -> Estimate:
     """Return the share of converging episodes that do not settle; the interval is that of `maps.lost_between`."""
     from bench.findings.maps import lost_between
 
-    sure = read.converged(frame)
+    sure = converged(frame)
     return lost_between(int((~settled(sure)).sum()), len(frame) - len(sure), len(frame))
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
 
-from bench.base.errors import BenchError
+from bench.base.errors import NoEvidence
 from bench.findings.amounts import join_words
 
 
@@ -70,10 +70,6 @@ LONGEST_MEASURED = 240
 """Characters of what was measured: one sentence or two, which a cell of a table holds."""
 
 
-class NoEvidence(BenchError):
-    """A claim asked of tables that hold nothing about it: an error, never a pass."""
-
-
 class Evidence(NamedTuple):
     """Why the word is what it is.
 
@@ -120,7 +116,7 @@ class Claim(NamedTuple):
     """One sentence of the paper and how it is decided.
 
     sentence: our paraphrase. criterion: what each word takes, in numbers. open: what the paper leaves open and how the
-    verdict depends on it. readings: where there are several. judge: results -> (word, evidence). quote: the paper's own
+    verdict depends on it. readings: where there are several. judge: run -> (word, evidence). quote: the paper's own
     words; section and equation: where they stand; value: the paper's number. correction: of the paper, what is said
     when the claim holds with one; empty: no criterion of it leads there. instead: what is true where it does not hold,
     or on what it depends. written: date and commit of the criterion. replay: the command that makes the episodes again
@@ -177,11 +173,11 @@ def claim(id: str) -> Callable[[Callable], Claim]:
         )
 
         @functools.wraps(judge)
-        def judged(results: Any) -> tuple[Word, Evidence]:
-            results.chosen.clear()
-            word, found = judge(results)
+        def judged(run: Any) -> tuple[Word, Evidence]:
+            run.chosen.clear()
+            word, found = judge(run)
             found = found._replace(tables=found.tables or tables)
-            chosen = (rows for rows in results.chosen if rows[0] in found.tables)
+            chosen = (rows for rows in run.chosen if rows[0] in found.tables)
             return word, found._replace(chosen=tuple(dict.fromkeys(chosen)))
 
         written = {name: text(words) for name, words in texts.items()}
@@ -243,12 +239,12 @@ class Verdict(NamedTuple):
         return self.claim.earlier[0].word if self.claim.earlier else self.word
 
 
-def decide(claim: Claim, results: Any) -> Verdict:
-    """Judge one claim on a run's results; NoEvidence: the tables hold no row about it.
+def decide(claim: Claim, run: Any) -> Verdict:
+    """Judge one claim on a run; NoEvidence: its tables hold no row about it.
 
     A claim that says itself that it is not tested needs no row.
     """
-    word, evidence = claim.judge(results)
+    word, evidence = claim.judge(run)
     if evidence.rows < 1 and word != Word.UNTESTED:
         raise NoEvidence(
             f"{claim.id}: no row of {', '.join(evidence.tables) or 'any table'} speaks of it; run "

@@ -1,12 +1,12 @@
 """What is proved of one law, in a process of its own: for `bench prove`, and for results/proofs/proofs.json."""
 
 import json
-import sys
 from pathlib import Path
 from typing import Any
 
 from bench.base.errors import BadLaw
 from bench.base.files import read_json
+from bench.base.isolated import TimeLimits
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.amounts import count_of
 from bench.law.contenders.law_file import load_law
@@ -54,8 +54,9 @@ def certify_apart(law: Law | HasLaw, lemma_s: float = LEMMA_S, law_s: float = LA
     """
     inner = law.law if isinstance(law, HasLaw) else law
     request = {"name": law.name, "text": inner.text, "origin": inner.origin, "lemma_s": lemma_s, "law_s": law_s}
+    limits = TimeLimits(processor_s=HARD_S, wall_s=WAITS * law_s)
     try:
-        return next(ask(__name__, request, WAITS * law_s, inner.origin or law.name))
+        return ask(__name__, request, limits, inner.origin or law.name)
     except BadLaw as error:
         return without_proof(law, str(error))
 
@@ -248,4 +249,4 @@ def _certify_asked(request: dict, path: Path | None) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    answer(int(sys.argv[1]), HARD_S, certify_asked)
+    answer(certify_asked)

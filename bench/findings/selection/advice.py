@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from bench.experiments.experiment import Settings
+from bench.experiments.request import Request
 from bench.experiments.situations import (
     CROWD,
     HORIZON_S,
@@ -171,7 +171,7 @@ class Trials:
     ):
         self.at, self.report = at, report
         self.first, self.most = first, most
-        self.settings = Settings("situations", seed=seed)
+        self.request = Request("situations", seed=seed)
         self.by_law: dict[str, LawTrial] = {}
         self.known = {law.name: law for law in mapped_laws()}
 
@@ -184,13 +184,13 @@ class Trials:
             return before
         self.report(law)
         contender = self.known[law]
-        starts = self.at.starts(count, self.settings.seed)[ran:]
-        drawn = run_starts(self.settings, contender, self.at, starts, self.at.condition())
+        starts = self.at.starts(count, self.request.seed)[ran:]
+        drawn = run_starts(self.request, contender, self.at, starts, self.at.condition())
         if before:
             drawn = {name: np.concatenate((before.drawn[name], numbers)) for name, numbers in drawn.items()}
             trial = before._replace(drawn=drawn)
         else:
-            exact, noisy = run_half_turns(self.settings, contender, self.at)
+            exact, noisy = run_half_turns(self.request, contender, self.at)
             stuck, trapped = (int((numbers["time"] == math.inf).sum()) for numbers in (exact, noisy))
             trial = LawTrial(contender, self.at, drawn, stuck, trapped)
         self.by_law[law] = trial
@@ -283,7 +283,7 @@ def advise(
         qualified=published,
         ours=tuple(name for name in qualified if not may_be_advised(name)),
         is_whole=set(trials.by_law) == set(every),
-        least=find_least_time(wanted, FIRST, trials.settings.seed),
+        least=find_least_time(wanted, FIRST, trials.request.seed),
     )
     if law is None:
         return advice

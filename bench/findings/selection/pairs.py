@@ -15,7 +15,7 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.situations import CROWD, summarize
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.run import with_contender
 from bench.experiments.tables.statistics import TAIL, quantile, resampled, resampled_quantile
 from bench.experiments.tables.store import read
 

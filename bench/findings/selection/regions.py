@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.run import with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
 from bench.findings.selection.jump import jump

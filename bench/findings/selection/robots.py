@@ -9,12 +9,17 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+from bench.base.errors import NoEvidence
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.claims.tables import Results
-from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.nearest import answer
 from bench.findings.selection.regions import Rule, RuleVerdict, decide, find_default
-from bench.findings.selection.run_rows import Compared, compare_arms, compare_positions, compare_velocities
+from bench.findings.selection.run_rows import (
+    Compared,
+    compare_arms,
+    compare_positions,
+    compare_velocities,
+)
 from bench.findings.subjects import SentenceSubject
 from tasks.situation import UNCANCELLED
 
@@ -24,7 +29,7 @@ OF_ARMS = Rule(adversary=False, by="missed")
 OF_FIRST_ORDER = Rule(adversary=False, overshoot=float("inf"))
 """First-order laws were run without noise, and their overshoot was not measured."""
 
-MEASURES: dict[str, tuple[Rule, Callable[[Results], Compared]]] = {
+MEASURES: dict[str, tuple[Rule, Callable[[Run], Compared]]] = {
     "arm": (OF_ARMS, compare_arms),
     "velocity": (OF_FIRST_ORDER, compare_velocities),
     "position": (OF_FIRST_ORDER, compare_positions),
@@ -39,7 +44,7 @@ class Robot(NamedTuple):
     rows: str
     subject: SentenceSubject
     rule: Rule
-    compare: Callable[[Results], Compared]
+    compare: Callable[[Run], Compared]
 
 
 ROBOTS = {
@@ -61,7 +66,7 @@ A run of one's own has other starts, and so other ties: read of it, the terminal
 @functools.cache
 def compare_for(robot: Robot, folder: Path) -> Compared:
     """Return the laws compared on the rows of a robot in the run of a folder; NoEvidence if it has none."""
-    return robot.compare(Results(folder))
+    return robot.compare(Run(folder))
 
 
 def decide_for(robot: Robot, folder: Path = RUN) -> RuleVerdict | None:

@@ -15,16 +15,21 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from bench.base.errors import BadResults
+from bench.base.errors import BadResults, NoEvidence
 from bench.experiments.situations import AWAY_RAD, CROWD
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.statistics import quantile
 from bench.findings.claims.adequacy import DETOUR, HELD_RAD, NOISE
-from bench.findings.claims.tables import Results
-from bench.findings.claims.verdict import NoEvidence
 from bench.findings.on_arms import passed
 from bench.findings.selection.pairs import compare_shares, compare_times
 from bench.findings.selection.regions import FACTS, find_facts
-from bench.findings.selection.tables import Tables, by_law, by_standard_inverse, common, tables_of
+from bench.findings.selection.tables import (
+    ComparedRows,
+    by_law,
+    by_standard_inverse,
+    common,
+    select_rows,
+)
 
 OF_RUN = "run"
 """The situation of all rows: that of the run."""
@@ -42,7 +47,7 @@ class Compared(NamedTuple):
         pairs: Every two laws, by the paired bootstrap over the starts that both ran.
     """
 
-    tables: Tables
+    tables: ComparedRows
     rows: pd.DataFrame
     pairs: pd.DataFrame
 
@@ -57,13 +62,13 @@ class Compared(NamedTuple):
         return {str(name): value for name, value in row.items()}
 
 
-def compare_free_body(results: Results) -> Compared:
+def compare_free_body(run: Run) -> Compared:
     """Return every law of a run from the uniform starts of the free body that all laws ran.
 
     Beside what the rule reads: `directed`, the directed starts that do not settle; `detour`, the longest path over the
     shortest, from uniform starts and 180° rotations; `held`, the least noise tried that traps the law at 180°.
     """
-    tables = tables_of(results)
+    tables = select_rows(run)
     uniform, directed = tables.uniform, tables.directed
     exact = directed[directed["start_set"] == EXACT]
     times = by_law(uniform, "settling_time_s", math.inf)
@@ -82,14 +87,14 @@ def compare_free_body(results: Results) -> Compared:
     return Compared(tables, make_rows(tables, numbers), tabulate_pairs(compare_times(times)))
 
 
-def compare_arms(results: Results) -> Compared:
+def compare_arms(run: Run) -> Compared:
     """Return every law of a run on its arms, whose goals are never exactly 180° away, by the turns that miss.
 
     `missed` is the share of the turns that do not settle, or that need a motor's rating or the end of a joint's range.
     Motors and joints stop some turns of every law: the time of 99 % of the turns is infinite for all. So lost starts,
     detours and overshoot are those of the free body, which nothing stops, and the share of the turns decides.
     """
-    tables = tables_of(results)
+    tables = select_rows(run)
     arms = keep_whole(tables.arms[tables.arms["contender"].isin(tables.contenders)])
     if arms.empty:
         raise NoEvidence("no law was run on an arm (try: bench run --task arm-regulation)")
@@ -102,27 +107,27 @@ def compare_arms(results: Results) -> Compared:
     return Compared(tables, make_rows(tables, numbers), tabulate_pairs(compare_shares(misses)))
 
 
-def compare_velocities(results: Results) -> Compared:
+def compare_velocities(run: Run) -> Compared:
     """Return every first-order law at the full share of K, without a limiter, from uniform starts of the free body."""
-    tables, rows = read_velocities(results)
+    tables, rows = read_velocities(run)
     uniform, _ = split_free_body(rows)
     return _compare_first_order(tables, rows, uniform)
 
 
-def compare_positions(results: Results) -> Compared:
+def compare_positions(run: Run) -> Compared:
     """Return every first-order law on arms whose servos lag.
 
     A position loop of time constant T that is given the integral of omega moves as a servo of velocity with lag T does:
     (q_d - q)/T is omega through 1/(T s + 1).
     """
-    tables, rows = read_velocities(results)
+    tables, rows = read_velocities(run)
     late = keep_whole(by_standard_inverse(rows[rows["lag_s"] > 0.0]))
     if late.empty:
         raise NoEvidence("no robot was run with servos that lag (try: bench run --experiment velocity)")
     return _compare_first_order(tables, rows, late)
 
 
-def _compare_first_order(tables: Tables, rows: pd.DataFrame, starts: pd.DataFrame) -> Compared:
+def _compare_first_order(tables: ComparedRows, rows: pd.DataFrame, starts: pd.DataFrame) -> Compared:
     """Return first-order laws by the times of these starts; detours and 180° rotations are those of the free body."""
     uniform, exact = split_free_body(rows)
     is_away = uniform["furthest_rad"] > uniform["angle0_rad"] + AWAY_RAD
@@ -136,11 +141,11 @@ def _compare_first_order(tables: Tables, rows: pd.DataFrame, starts: pd.DataFram
     return Compared(tables, make_rows(tables, numbers), tabulate_pairs(compare_times(times)))
 
 
-def read_velocities(results: Results) -> tuple[Tables, pd.DataFrame]:
+def read_velocities(run: Run) -> tuple[ComparedRows, pd.DataFrame]:
     """Return the tables of a run, and its rows of the first-order laws that these compare."""
     advice = "no robot was commanded by velocities (try: bench run --experiment velocity)"
     try:
-        rows = results.table("velocity", limiter="none")
+        rows = run.table("velocity", limiter="none")
     except BadResults as error:  # a run that is older than the table
         raise NoEvidence(advice) from error
     rows = rows[rows["share"] == 1.0] if len(rows) else rows
@@ -148,7 +153,7 @@ def read_velocities(results: Results) -> tuple[Tables, pd.DataFrame]:
         raise NoEvidence(advice)
     law = rows["contender"].astype(str).str.partition("@")[0]
     rows = rows.assign(contender=law, lost=rows["outcome"].astype(str) != "settled")
-    tables = tables_of(results)
+    tables = select_rows(run)
     return tables, rows[rows["contender"].isin(tables.contenders)]
 
 
@@ -165,7 +170,7 @@ def keep_whole(rows: pd.DataFrame) -> pd.DataFrame:
     return rows[starts == starts.max()]
 
 
-def count_from_rest(tables: Tables) -> dict[str, pd.Series]:
+def count_from_rest(tables: ComparedRows) -> dict[str, pd.Series]:
     """Return what the uniform starts of the free body count: lost, unwound, and the overshoot of 99 % [deg]."""
     uniform = tables.uniform
     overshoot = {law: np.degrees(own) for law, own in by_law(uniform, "overshoot_rad").items()}
@@ -186,7 +191,7 @@ def take(values: Mapping[str, np.ndarray], level: float) -> pd.Series:
     return pd.Series({law: float(quantile(own, level)) for law, own in values.items()}, dtype=float)
 
 
-def make_rows(tables: Tables, numbers: Mapping[str, Mapping[str, float] | pd.Series]) -> pd.DataFrame:
+def make_rows(tables: ComparedRows, numbers: Mapping[str, Mapping[str, float] | pd.Series]) -> pd.DataFrame:
     """Return the rows of the laws that have all numbers which decide; numbers: column -> law -> number."""
     columns = pd.DataFrame({name: pd.Series(own, dtype=float) for name, own in numbers.items()})
     decisive = [name for name in columns if name in ("lost", "stuck", "time", "missed")]
@@ -206,7 +211,7 @@ def tabulate_pairs(pairs: list[dict]) -> pd.DataFrame:
 @functools.cache
 def compare_run(folder: Path) -> Compared:
     """Return the laws of the free body of the run in a folder."""
-    return compare_free_body(Results(folder))
+    return compare_free_body(Run(folder))
 
 
 def settles_everywhere(rows: pd.DataFrame) -> pd.Series:

@@ -10,12 +10,17 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bench.base.errors import NoEvidence
 from bench.base.on_first_use import pd
-from bench.experiments.tables import read as published
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.run import (
+    FREE_BODY,
+    MAIN_ENGINE,
+    Run,
+    require_rows,
+    with_contender,
+)
 from bench.findings.claims.adequacy import tallied
-from bench.findings.claims.tables import MAIN_ENGINE, Results, settled, some
-from bench.findings.claims.verdict import NoEvidence
+from bench.findings.claims.tables import settled
 from bench.findings.start_sets import DIRECTED
 from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders, contenders_of
@@ -24,11 +29,17 @@ SAMPLED = "native"
 """The engine of a law that cannot run on the continuous plant: MuJoCo's own actuator."""
 
 
-class Tables(NamedTuple):
-    """uniform, directed: starts that every law ran; arms: episodes on arms as they are, by the geometric Jacobian.
+class ComparedRows(NamedTuple):
+    """Hold the rows of a run that laws are compared on.
 
-    ticks: law -> its time over a whole controller's tick [%], of the laws that were timed. contenders: the laws
-    compared, by name, the simplest first.
+    Attributes:
+        uniform: Uniform starts of the free body that every law ran.
+        directed: Directed starts that every law ran.
+        costs: Law -> its rows of costs.
+        robustness: Perturbed episodes.
+        arms: Episodes on arms as they are, by the geometric Jacobian.
+        ticks: Law -> its time over a whole controller's tick [%], of the laws that were timed.
+        contenders: The laws compared, by name, the simplest first.
     """
 
     uniform: pd.DataFrame
@@ -53,31 +64,31 @@ class Tables(NamedTuple):
         return self.memory(name), sum(self.spent(name))
 
 
-def tables_of(results: Results) -> Tables:
-    """Return the tables of a run for every law that has uniform starts, half-turn starts and a cost."""
-    every = results.table("episodes")
+def select_rows(run: Run) -> ComparedRows:
+    """Return the rows of a run for every law that has uniform starts, half-turn starts and a cost."""
+    every = run.table("episodes")
     runs = every[(every["task"] == "free-body") & every["engine"].isin((MAIN_ENGINE, SAMPLED))]
     on_main = set(runs.loc[runs["engine"] == MAIN_ENGINE, "contender"])
     runs = runs[(runs["engine"] == MAIN_ENGINE) | ~runs["contender"].isin(on_main)]
-    costs = results.table("costs", **published.FREE_BODY)
+    costs = run.table("costs", **FREE_BODY)
     priced = {str(name): rows for name, rows in costs.groupby("contender", observed=True)}
     sets = runs.groupby("contender", observed=True)["start_set"].agg(set)
-    laws = published.own_laws(results.folder) if results.folder else ()
+    laws = run.user_laws()
     # a user's law that may not run cannot be asked how far it jumps, and is left out
     own = [one for law in laws if law.text for one in contenders_of(law)]
     known = {one.name: one for one in (*all_contenders(), *own)}
     names = [name for name in sets.index if {"uniform", "half-turn"} <= sets[name] and name in priced and name in known]
-    runs = some(runs[runs["contender"].isin(names)], "law with uniform and half-turn starts and a cost")
+    runs = require_rows(runs[runs["contender"].isin(names)], "law with uniform and half-turn starts and a cost")
     runs = runs.assign(contender=runs["contender"].astype(str), lost=~settled(runs))
     named = {name: known[name] for name in names}
-    robustness = some(results.table("robustness"), "perturbed law")
-    found = Tables(
+    robustness = require_rows(run.table("robustness"), "perturbed law")
+    found = ComparedRows(
         common(runs[runs["start_set"] == "uniform"]),
         common(runs[runs["start_set"].isin(DIRECTED)]),
         priced,
         robustness.assign(contender=robustness["contender"].astype(str), lost=~settled(robustness)),
         _on_arms(every),
-        ticks(results),
+        ticks(run),
         named,
     )
     order = sorted(named, key=lambda name: (*found.simplicity(name), name))
@@ -121,11 +132,10 @@ BY = "rotation-matrix@geometric"
 """The controller of the denominator, by the inverse of each arm."""
 
 
-def ticks(results: Results) -> dict[str, float]:
+def ticks(run: Run) -> dict[str, float]:
     """Return law -> its time alone over a whole controller's [%], the medians over arms and those machines."""
     found: dict[str, list[float]] = {}
-    given = results.frames.get("timings")
-    timed = [one for one in results.machines() if "arm" in one] if given is None else [given]
+    timed = [times for times in run.machines() if "arm" in times]
     for frame in map(with_contender, timed):
         is_whole = (frame["what"] == "controller") & frame["contender"].astype(str).str.startswith(BY)
         whole = frame.loc[is_whole & (frame["ticks"] > 0), "ratio"].median()

@@ -17,7 +17,7 @@ from bench.findings.selection.regions import (
     meets,
 )
 from bench.findings.selection.run_rows import Compared
-from bench.findings.selection.tables import Tables
+from bench.findings.selection.tables import ComparedRows
 from bench.findings.selection.unbeaten import (
     SPOKEN,
     Rival,
@@ -58,7 +58,7 @@ def together(words: Sequence[str], named: int = NAMED) -> str:
     return f"{', '.join(first)} and {last}" if first else last
 
 
-def cost(tables: Tables, law: str) -> str:
+def cost(tables: ComparedRows, law: str) -> str:
     """Flops and calls a tick, and of a law that was timed its share of a whole controller's tick."""
     flops, calls = tables.spent(law)
     share = tables.ticks.get(law)

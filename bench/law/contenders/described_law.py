@@ -2,34 +2,29 @@
 
     described(path) -> a Law whose functions are in the sandbox alone
 
-Run with a DESCRIPTOR (`module_command`), this module is that process: over the line comes the path and
-the text, back go the fields, or the mistake.
+This module is that process too (bench/base/isolated.py). It answers two requests: the path and the
+text, with the words of the law; then another, when the law has answered once.
 """
 
 import base64
+import contextlib
 import functools
 import json
-import signal
-import sys
-from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
-from bench.base.errors import BadLaw, BenchError
+from bench.base.isolated import IsolatedProcess, Line, NoAnswer, TimeLimits, serve
 from bench.law.contenders.law_file import check_answers, check_fields, load_law, read_law
-from bench.law.contenders.law_process import LawProcess, ending, limit
+from bench.law.contenders.law_process import bad_law
 from bench.law.display import Display, Look
 from bench.law.kinds import Law, OnCoordinates, UserFile
 
-LOAD_S, TRIAL_S = 20.0, 5.0
-"""Seconds of processor time for a user's file to import, and for its law to be called once."""
+LOAD_S, WAITS_S = 20.0, 60.0
+"""Limits for a user's file to import: seconds of processor time, and on the wall, for a file that
+waits or is kept waiting by a busy machine."""
 
-ANSWERS = ("fields", "answers")
-"""What is said of a file, in this order: what it says of its law, and that the law answers when it is called. One that
-crashes or hangs then is known all the same: its rows will say so."""
-
-WAITS_S, TRIAL_WAITS_S = 60.0, 10.0
-"""The limit in wall time: for a law that waits, or is kept waiting by a busy machine."""
+TRIAL_LIMITS = TimeLimits(processor_s=5.0, wall_s=10.0)
+"""Limits for its law to be called once."""
 
 FUNCTIONS = ("law", "law_in", "margin", "coordinate_law_in")
 ELSEWHERE = ("file", "display", "attribution")
@@ -45,40 +40,25 @@ def described(path: Path, text: bytes | None = None, limit_s: float = LOAD_S, wa
     path = Path(path)
     if text is None:
         text = read_law(path)
-    try:
+    why = "it does not load ({}); correct what runs on import"
+    with bad_law(str(path), why, "say what it is"):
         file = UserFile(str(path), text.decode())
-        own = stand_in(_described(path, text, limit_s, waits_s), file)
-        check_fields(own, path)
-    except (LookupError, TypeError, AttributeError) as error:
-        raise BadLaw(f"--law {path}: its process did not say what it is; correct what runs on import") from error
-    return own
+        law = stand_in(_described(path, text, limit_s, waits_s), file)
+        check_fields(law, path)
+    return law
 
 
 @functools.lru_cache(maxsize=32)
 def _described(path: Path, text: bytes, limit_s: float, waits_s: float) -> str:
     """Return the fields as JSON; once for the same text."""
-    process = LawProcess(__name__, waits_s)
-    said: list[dict] = []
-    is_late = False
-    try:
-        asked = {"path": str(path), "text": base64.b64encode(text).decode(), "limit_s": limit_s}
-        process.line.send_bytes(json.dumps(asked).encode())
-        while len(said) < len(ANSWERS):
-            said.append(dict(json.loads(process.hear(min(waits_s, TRIAL_WAITS_S) if said else waits_s))))
-    except TimeoutError:
-        is_late = True
-    except (EOFError, OSError, TypeError, ValueError):
-        pass  # its exit code says why, or it wrote to the line itself
-    finally:
-        code = process.end()
-    for one in said:
-        if "mistake" in one:
-            raise BadLaw(one["mistake"])
-    if not said:
-        late = f"it did not return within {limit_s:g} s"
-        why = late if is_late or code == -signal.SIGXCPU else f"it ended its process, {ending(code)}"
-        raise BadLaw(f"--law {path}: it does not load ({why}); correct what runs on import")
-    return json.dumps(said[0]["fields"])
+    request = {"path": str(path), "text": base64.b64encode(text).decode()}
+    trial = TimeLimits(min(TRIAL_LIMITS.processor_s, limit_s), min(TRIAL_LIMITS.wall_s, waits_s))
+    with IsolatedProcess(__name__) as process:
+        fields = process.ask(request, TimeLimits(limit_s, waits_s))
+        # A law that crashes or hangs here is known all the same: its rows will say so.
+        with contextlib.suppress(NoAnswer):
+            process.ask({}, trial)
+    return fields.decode(errors="replace")
 
 
 def stand_in(content: str, file: UserFile) -> Law:
@@ -107,20 +87,23 @@ def not_here(*_):
     raise RuntimeError("a user's law is called in its sandbox alone")
 
 
-def main(descriptor: int) -> None:
-    """Read the law that is asked for, and say what it is."""
-    with Connection(descriptor) as line:
-        asked = json.loads(line.recv_bytes())
-        try:
-            limit(asked["limit_s"])
-            own = load_law(Path(asked["path"]), base64.b64decode(asked["text"]))
-            line.send_bytes(json.dumps({"fields": fields_of(own)}).encode())
-            limit(min(TRIAL_S, asked["limit_s"]))
-            check_answers(own)
-            line.send_bytes(json.dumps({"answers": True}).encode())
-        except BenchError as error:
-            line.send_bytes(json.dumps({"mistake": str(error)}).encode())
+class LawReader:
+    """Reads a user's file in its own process.
+
+    Attributes:
+        law: The law of the file, once it was read.
+    """
+
+    law: Law
+
+    def answer(self, request: dict, _: Line) -> bytes:
+        """Load the file that is given, and return the words of its law; then call the law once."""
+        if "text" in request:
+            self.law = load_law(Path(request["path"]), base64.b64decode(request["text"]))
+            return json.dumps(fields_of(self.law)).encode()
+        check_answers(self.law)
+        return b""
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    serve(LawReader().answer)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import pandas as pd
 
 from bench.base.errors import BadLaw, BadResults
-from bench.experiments.tables.read import table
+from bench.experiments.tables.run import Run
 from bench.findings.judge_law import judge_laws
 from bench.findings.judgement import Judgement
 from bench.law.contenders.described_law import described
@@ -154,7 +154,7 @@ def compare_measures(base: Path, head: Path) -> list[dict[str, str]]:
 
 def _measure(folder: Path) -> dict[tuple[str, str], str]:
     """Return the measures of every law by its name and theirs, as text."""
-    episodes, field = (table(folder, name) for name in ("episodes", "command-field"))
+    episodes, field = (Run(folder).table(name) for name in ("episodes", "command-field"))
     episodes = episodes[(episodes["arm"] == "") & (episodes["engine"] == ENGINE)]
     stiffness = field[field["finding"] == "stiffness"]
     found = {}

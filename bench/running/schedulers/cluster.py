@@ -24,7 +24,7 @@ from tornado.ioloop import PeriodicCallback
 from bench.base.errors import LostWorkers, MissingTool
 from bench.experiments.experiment import Unit, experiment_of
 from bench.running.run_folder import part, write_part
-from bench.running.sandbox import Sandbox
+from bench.running.sandbox.sandbox import Sandbox
 from bench.running.schedulers import LOCAL, worker
 from bench.running.wire_format import described
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from bench.experiments.experiment import Unit
 from bench.running.precompile import Ahead
 from bench.running.run_folder import write_part
-from bench.running.sandbox import Sandbox
+from bench.running.sandbox.sandbox import Sandbox
 from bench.running.schedulers import share_heap
 
 UNITS_A_PROCESS = 8

@@ -4,7 +4,7 @@ import importlib
 import json
 import signal
 
-from bench.running.sandbox import Sandbox
+from bench.running.sandbox.sandbox import Sandbox
 from bench.running.wire_format import plan_of
 
 

@@ -26,7 +26,8 @@ import pandas as pd
 import tasks
 from bench.base.bisection import bisect
 from bench.experiments import starts
-from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.experiment import Unit, rows_of
+from bench.experiments.request import Request
 from bench.experiments.suites import NOMINAL
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.theory.late_torques import find_greatest_kv
@@ -194,7 +195,7 @@ def simulate(arm: str, law: str, joints: int) -> np.ndarray:
         episodes=STARTS,
         horizon_s=HORIZON_S,
     )
-    rows = rows_of(Settings("default", dt_s=PERIOD_S), unit)
+    rows = rows_of(Request("default", dt_s=PERIOD_S), unit)
     return rows["settling_time_s"].fillna(np.inf).to_numpy()
 
 

@@ -19,11 +19,11 @@ from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path as Outline
 from scipy.spatial import Voronoi
 
+from bench.experiments.tables.run import Run
 from bench.findings.selection.regions import RuleVerdict, decide_all, read_map
 from bench.findings.selection.sensitivity import RULES
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, Picture, responsive_picture
-from report.figures.kit.page import Run
 from tasks.situation import COORDINATES, NOMINAL, Situation
 
 SHOWN = {

@@ -6,12 +6,12 @@ from bench.audit.convention import FORMS
 from bench.audit.examined import COUNT_RAD
 from bench.audit.faults import every_fault
 from bench.audit.pairs import every_pair
+from bench.experiments.tables.run import Run
 from bench.export.language import find_language, language_words
 from bench.export.subject import subject_words
 from bench.export.vectors import CLOSE
 from bench.findings.amounts import join_words
 from report.figures.kit import html
-from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
 
 FAULTS = html.PageTable(

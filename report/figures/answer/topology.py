@@ -5,11 +5,12 @@ import math
 import numpy as np
 
 from bench.experiments.situations import NOISE_RAD
+from bench.experiments.tables.run import Run
 from bench.findings.amounts import join_words
 from bench.findings.selection.regions import list_facts
 from bench.findings.selection.run_rows import compare_run, is_unheld, settles_everywhere
 from report.figures.kit import families, html, media
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 
 MUJOCOS = "in-engine"
 """MuJoCo's actuator, which is the rotation vector's law."""

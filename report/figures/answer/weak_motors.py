@@ -5,6 +5,7 @@ from typing import Any
 
 import pandas as pd
 
+from bench.experiments.tables.run import Run
 from bench.findings.selection.checked import (
     LITTLE_DEG,
     NEAR_LEAST,
@@ -14,7 +15,6 @@ from bench.findings.selection.checked import (
     read_weak_motors,
 )
 from report.figures.kit import html
-from report.figures.kit.page import Run
 from tasks.situation import read_situation
 
 LOG_RATIO = math.log(180.0 / LITTLE_DEG)

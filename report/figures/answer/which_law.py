@@ -4,11 +4,17 @@ from collections.abc import Iterator
 from typing import Any
 
 from bench.experiments.situations import FIRST, MOST, NOISE_RAD
+from bench.experiments.tables.run import Run
 from bench.findings.amounts import count_of
 from bench.findings.answer import NOT_TESTED, Answer, find_answer
 from bench.findings.proofs.certificate import read_certificates
 from bench.findings.selection import regions, sensitivity, words
-from bench.findings.selection.checked import LITTLE_DEG, NEAR_LEAST, count_weak_motors, read_weak_motors
+from bench.findings.selection.checked import (
+    LITTLE_DEG,
+    NEAR_LEAST,
+    count_weak_motors,
+    read_weak_motors,
+)
 from bench.findings.selection.regions import decide_all, facts_of, find_regions, is_drawn, read_map
 from bench.findings.selection.robots import ROBOTS, list_elsewhere
 from bench.findings.selection.sensitivity import Rated
@@ -22,7 +28,7 @@ from bench.findings.selection.words import describe_bounds, together
 from bench.law.attribution import IN_WORDS
 from bench.law.contenders.registry import find_contender
 from report.figures.kit import families, html
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 from report.figures.kit.spelling import prose
 from report.figures.replication.conclusions import call_laws
 from report.subjects import find_page

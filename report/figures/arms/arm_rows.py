@@ -11,13 +11,17 @@ import pandas as pd
 
 import tasks
 from bench.experiments.suites import NOMINAL
-from bench.experiments.tables import read
+from bench.experiments.tables.run import Run, shown_run
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
-from bench.law.contenders.registry import all_contenders, baselines_of_arms, contenders, contenders_of
+from bench.law.contenders.registry import (
+    all_contenders,
+    baselines_of_arms,
+    contenders,
+    contenders_of,
+)
 from bench.law.kinds import OnCoordinates
 from report.figures.kit import families
-from report.figures.kit.page import Run
 
 STANDARD = "standard"
 WORDS = ("arm", "variation", "regulator", "representation", "jacobian", "inverse", "start_set", "start_id", "outcome")
@@ -67,7 +71,7 @@ def standard(arm: str, law: str, jacobian: str) -> str:
 @functools.cache
 def laws_by_name() -> dict[str, Contender]:
     """Every law in its coordinates by name, the user's own of the run among them."""
-    own = [one for law in read.own_laws() for one in contenders_of(law)]
+    own = [one for law in shown_run().user_laws() for one in contenders_of(law)]
     return {one.name: one for one in (*all_contenders(), *own)} | baselines_of_arms()
 
 

@@ -10,14 +10,15 @@ import numpy as np
 import pandas as pd
 
 import tasks
+from bench.experiments.tables.run import Run, require_rows
 from bench.findings.amounts import join_words
-from bench.findings.claims.tables import settled, share, some
+from bench.findings.claims.tables import settled, share
 from bench.findings.on_arms import FULL, best, passed
 from bench.findings.selection.robots import ARM, decide_for
 from bench.law.contenders.registry import baselines_of_arms
 from report.figures.arms import arm_rows
 from report.figures.kit import families, html, media
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 from report.figures.kit.spelling import prose
 
 HOMES = (
@@ -177,7 +178,8 @@ def describe_model_errors(run: Run) -> str:
     """State how far apart controllers end on a plant that is not their model, and what the variations leave."""
     believed = [name for name in tasks.variation_names() if tasks.variation(name).believed]
     rows = arm_rows.with_standard(arm_rows.every(run))
-    rows = some(rows[rows["variation"].isin(believed) & rows["controller"].isin(arm_rows.COMPARED)], "variation")
+    is_compared = rows["variation"].isin(believed) & rows["controller"].isin(arm_rows.COMPARED)
+    rows = require_rows(rows[is_compared], "variation")
     key = ["arm", "start_id", "variation"]
     angles = rows.pivot_table("final_angle_rad", key, "controller", observed=True).dropna()
     apart = np.degrees(np.ptp(angles.to_numpy(), axis=1))

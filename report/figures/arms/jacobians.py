@@ -9,6 +9,7 @@ import pandas as pd
 
 import tasks
 from bench.experiments.suites import IDEAL_MOTORS
+from bench.experiments.tables.run import Run
 from bench.findings.claims.adequacy import tallied
 from bench.findings.claims.controller_costs import BY_EULER, INVERSES, ON_MATRIX, controller_costs
 from bench.findings.claims.euler_jacobian import WELL_CONDITIONED
@@ -17,7 +18,7 @@ from bench.law.contenders.registry import papers_coordinates
 from report.figures.arms import arm_rows
 from report.figures.arms.arm_rows import name_arm
 from report.figures.kit import html, media
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 from report.figures.kit.quotes import quote
 from report.figures.kit.spelling import power
 

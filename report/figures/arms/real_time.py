@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from bench.base.files import read_json
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
 from bench.findings.amounts import count_of, join_words
@@ -15,7 +16,6 @@ from bench.studies.real_time.loop import PERIOD_S
 from report.figures.arms import arm_rows
 from report.figures.kit import families, html, style
 from report.figures.kit.inline import Drawing, responsive_picture
-from report.figures.kit.page import Run
 
 STUDY = RESULTS / "real-time"
 LOOPS = html.PageTable(

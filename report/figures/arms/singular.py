@@ -5,12 +5,12 @@ from collections.abc import Iterator
 import pandas as pd
 
 from bench.experiments.suites import IDEAL_MOTORS, LISTS, NOMINAL
+from bench.experiments.tables.run import Run, require_rows
 from bench.findings.amounts import join_words
-from bench.findings.claims.tables import settled, some
+from bench.findings.claims.tables import settled
 from bench.law.contenders.registry import contenders
 from report.figures.arms import arm_rows
 from report.figures.kit import html
-from report.figures.kit.page import Run
 
 RULES = html.PageTable(
     "Rule for Λ | Arms | Episodes that settle with unlimited torque [%]:.0f | Largest unlimited torque, "
@@ -25,7 +25,7 @@ def facts(run: Run) -> dict:
     """Return what the rules do from beside a singularity, in words and in a table."""
     rows = arm_rows.every(run)
     own = rows[rows["way"].isin(LISTS["OPERATIONAL"]) & (rows["start_set"] == START_SET)]
-    rows = some(own, "operational-space torque beside a singularity")
+    rows = require_rows(own, "operational-space torque beside a singularity")
     rows = rows.assign(settled=settled(rows), is_redundant=rows["arm"] == "panda")
     return {"said": describe_rules(rows), "torques": compare_torques(rows), "rules": RULES(compare_rules(rows))}
 

@@ -4,6 +4,7 @@ from collections.abc import Iterable
 
 import pandas as pd
 
+from bench.experiments.tables.run import Run
 from bench.findings.amounts import capitalize, join_words
 from bench.findings.claims.adequacy import DETOUR
 from bench.findings.selection.regions import RuleVerdict
@@ -11,7 +12,6 @@ from bench.findings.selection.robots import VELOCITY, decide_for
 from bench.findings.selection.words import standing, together
 from bench.findings.theory.velocity_limits import with_theory
 from report.figures.kit import families
-from report.figures.kit.page import Run
 
 
 def with_law(rows: pd.DataFrame) -> pd.DataFrame:

@@ -6,6 +6,7 @@ from typing import Any
 
 import pandas as pd
 
+from bench.experiments.tables.run import Run
 from bench.findings.amounts import capitalize, join_words
 from bench.findings.constants import (
     CONSTANTS,
@@ -17,7 +18,6 @@ from bench.findings.constants import (
 )
 from bench.findings.selection.regions import find_default
 from report.figures.kit import families, html
-from report.figures.kit.page import Run
 
 TABLE = html.PageTable(
     "Law | Constant | Value used | Other values tried "

@@ -14,13 +14,12 @@ from typing import Any
 
 import tasks
 from bench.base.errors import BadLaw
-from bench.experiments.tables import read
+from bench.experiments.tables.run import FREE_BODY, Run
 from bench.export import browser
 from bench.law.contender import Contender
 from bench.law.contenders.registry import simulated_contenders
 from report.figures.cost.cost import CALLS
 from report.figures.kit import families, html, laws, media, style
-from report.figures.kit.page import Run
 from tasks.base import Start
 from tasks.rules import RULES
 from tasks.truth import angle
@@ -168,7 +167,7 @@ def _translatable(name: str) -> Contender | None:
 
 def facts(run: Run) -> dict:
     """Return the numbers of the text, and what the script brings to life."""
-    ours, costs = alive(()), run.any_rows("costs", **read.FREE_BODY)
+    ours, costs = alive(()), run.any_rows("costs", **FREE_BODY)
     return {
         "laws": len(ours),
         "kilobytes": f"{len(browser.script(ours)) / 1000:.0f}",

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from bench.experiments.tables import read
+from bench.experiments.tables.run import Run, shown_run
 from bench.findings import why
 from bench.findings.amounts import count_of
 from bench.findings.claims.tables import share
@@ -34,7 +34,6 @@ from report.figures.cards.card import (
 )
 from report.figures.cards.constants import describe_constants
 from report.figures.kit import families, html, laws, style
-from report.figures.kit.page import Run
 
 UNTRUSTED = (
     "Somebody else wrote this law. Its file came with these results, and we did not run it: this "
@@ -66,11 +65,7 @@ def in_order() -> list[Law]:
     """Return the paper's three regulators, its variants by name, the later ones by name, the user's own of the run."""
     first = [one.regulator for one in papers_laws()]
     others = [one for one in contenders("regulators").values() if one not in first]
-    return [
-        *first,
-        *sorted(others, key=lambda one: (one.is_beyond_the_paper, one.name)),
-        *read.own_laws(),
-    ]
+    return [*first, *sorted(others, key=lambda one: (one.is_beyond_the_paper, one.name)), *shown_run().user_laws()]
 
 
 def every_law() -> list[Contender]:

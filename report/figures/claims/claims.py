@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Iterable
 
+from bench.experiments.tables.run import Run
 from bench.findings import claims
 from bench.findings.amounts import join_words
 from bench.findings.claims import Verdict, Word
@@ -10,7 +11,6 @@ from bench.findings.claims.verdict import verb_phrase
 from report.figures.claims.places import read_places
 from report.figures.kit import html
 from report.figures.kit.law_names import call_laws
-from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose
 
 VERDICTS = html.PageTable(

@@ -4,6 +4,7 @@ import html as escape
 from collections.abc import Iterable, Sequence
 
 from bench.base.files import read_json
+from bench.experiments.tables.run import Run
 from bench.findings import claims
 from bench.findings.amounts import join_words
 from bench.findings.claims import Verdict, at_gains
@@ -13,7 +14,6 @@ from report.figures.claims.places import read_places
 from report.figures.kit import html
 from report.figures.kit.law_names import call_laws
 from report.figures.kit.offered import OFFERED_BYTES, SITE_DATA
-from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
 
 SENTENCES = html.PageTable(

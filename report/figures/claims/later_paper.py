@@ -3,13 +3,13 @@
 from collections.abc import Sequence
 from typing import Any
 
+from bench.experiments.tables.run import Run
 from bench.findings import claims
 from bench.findings.claims import Verdict
 from bench.findings.claims.lopez_slotine_2024 import WHAT_WE_READ
 from bench.findings.claims.lopez_slotine_2024.attitude import KEPT_DEG
 from report.figures.claims import evidence
 from report.figures.kit import html
-from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose, typeset
 
 PAPER = "lopez-slotine-2024"

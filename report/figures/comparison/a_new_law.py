@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from bench.experiments.tables import read
+from bench.experiments.tables.run import FREE_BODY, Run
 from bench.export.short import write_short
 from bench.findings.amounts import capitalize, count_of, join_words
 from bench.findings.proofs.certificate import read_certificates
@@ -18,7 +18,6 @@ from bench.law.inputs import PAPERS_GAINS
 from report.figures.cost.cost import CALLS
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
-from report.figures.kit.page import Run
 from tasks.rules import RULES
 
 NEW = "late-braking"
@@ -31,7 +30,7 @@ PAPERS = "rotation-matrix"
 
 def facts(run: Run) -> dict:
     """Return by the equations how slow and strong this law is against the straight spring; and operations a tick."""
-    counted = run.any_rows("costs", **read.FREE_BODY)
+    counted = run.any_rows("costs", **FREE_BODY)
     proved = read_certificates()[NEW]
     spent = counted[counted["stage"] == "total"].set_index(["contender", "branch"])
     return {

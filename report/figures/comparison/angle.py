@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from bench.experiments.tables.run import Run
 from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, NEAREST_RAD, Equation, settling
 from report.figures.comparison.comparison import uniform
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 
 SHOWN = ("rotation-matrix", "quaternion-shortest", "rotation-vector", "late-braking", "mrp-memory")
 """The laws with a curve: a law for each error of the chapter's table, the advised one, and ours."""

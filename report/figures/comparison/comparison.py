@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
-from bench.experiments.tables import read
+from bench.experiments.tables.run import FREE_BODY, Run, converged
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims.tables import share
 from bench.findings.selection import tables as compared
@@ -17,7 +17,7 @@ from bench.findings.start_sets import AT_REST
 from report.figures.comparison.equal_peak import describe_slopes, list_tuned, write_table
 from report.figures.cost.cost import CALLS, totals
 from report.figures.kit import families, html
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 from report.figures.kit.spelling import power
 
 ALL_LAWS = html.PageTable(
@@ -37,7 +37,7 @@ SMALL_PEAK = 1e4
 @functools.cache
 def ideal(run: Run) -> pd.DataFrame:
     """Episodes of the free body on the continuous plant."""
-    return run.rows("episodes", engine="ideal-rk4", **read.FREE_BODY)
+    return run.rows("episodes", engine="ideal-rk4", **FREE_BODY)
 
 
 @functools.cache
@@ -83,10 +83,10 @@ def near(rows: pd.DataFrame) -> dict:
 
 def compare_laws(run: Run, times: pd.DataFrame, efforts: pd.DataFrame) -> Iterator[tuple]:
     """Return a row a law: what settles, how fast, effort, peak, a tick, lost starts, what noise holds."""
-    rows, tried, counted = uniform(run), directed_starts(ideal(run)), run.any_rows("costs", **read.FREE_BODY)
+    rows, tried, counted = uniform(run), directed_starts(ideal(run)), run.any_rows("costs", **FREE_BODY)
     held = in_run(lambda: list_held(run)) or {}
     for name in families.in_order(times):
-        own, sure = rows[rows["contender"] == name], read.converged(tried[tried["contender"] == name])
+        own, sure = rows[rows["contender"] == name], converged(tried[tried["contender"] == name])
         yield (
             families.link(name, families.word(name)),
             with_interval(*map(percent, share(own["outcome"] == "settled")[2:])),

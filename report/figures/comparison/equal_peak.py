@@ -6,11 +6,12 @@ from typing import NamedTuple
 from matplotlib.axes import Axes
 from matplotlib.ticker import NullLocator
 
+from bench.experiments.tables.run import Run
 from bench.findings.selection import sensitivity
 from bench.findings.selection.regions import facts_of, find_default
 from report.figures.kit import families, html, style
 from report.figures.kit.inline import Drawing, responsive_picture
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 
 TUNED = html.PageTable(
     "Law | Time in which 99 % of the starts settle, at critical damping [1/√kp]:.2f | "

@@ -1,7 +1,7 @@
 """Noise at 180° for the laws that the picture of the chapter leaves out, on the page that compares all laws."""
 
+from bench.experiments.tables.run import Run
 from bench.findings.theory.thresholds import HALF_TURN
-from report.figures.kit.page import Run
 from report.figures.robustness.half_turn_noise import (
     SHOWN,
     WITH,

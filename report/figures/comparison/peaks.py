@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 from matplotlib.axes import Axes
 from matplotlib.ticker import NullLocator
 
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.statistics import quantile_estimate
 from bench.findings.amounts import join_words
 from bench.findings.selection.regions import find_default
@@ -14,7 +15,6 @@ from report.figures.comparison.comparison import costs, uniform
 from report.figures.kit import families, html, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.laws import MATRIX, TITLES, gains
-from report.figures.kit.page import Run
 
 NAMED = (*TITLES, "quaternion-shortest", "hybrid", "mrp", "mrp-memory", "late-braking")
 """The laws of the argument, whose dots have names."""

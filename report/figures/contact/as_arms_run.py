@@ -9,6 +9,7 @@ import pandas as pd
 from bench.experiments.impedance import Stiffness
 from bench.experiments.impedance_modes import SHIPPED
 from bench.experiments.suites import IDEAL_MOTORS
+from bench.experiments.tables.run import Run
 from bench.findings.theory.impedance_modes import (
     longest_held_tick,
     longest_tick,
@@ -17,7 +18,6 @@ from bench.findings.theory.impedance_modes import (
 )
 from bench.law.control.unshaped import DAMPINGS
 from report.figures.kit import html
-from report.figures.kit.page import Run
 
 PANDA = html.PageTable(
     "Controller | Stiffness [N/m; N m/rad] | Longest stable control period, exact simulation [ms] "

@@ -18,6 +18,7 @@ from matplotlib.ticker import NullLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from scipy.spatial.transform import Rotation
 
+from bench.experiments.tables.run import Run
 from bench.findings.amounts import join_words
 from bench.findings.claims.side_by_side import compliances, predicted
 from report.figures.arms.arm_rows import name_arm
@@ -25,7 +26,7 @@ from report.figures.contact import as_arms_run
 from report.figures.contact.in_contact import EULER, PAPERS, PAPERS_EULER, level, of, of_task
 from report.figures.kit import style
 from report.figures.kit.inline import Drawing, responsive_picture
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 from report.figures.kit.spelling import power
 
 PROBE = "wrench-probe"

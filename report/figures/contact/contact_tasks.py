@@ -1,12 +1,13 @@
 """The page on the equations and tasks in contact: what each task is, when it ends, and how it looks."""
 
 import tasks
+from bench.experiments.tables.run import Run
 from bench.findings.amounts import join_words
 from report.figures.contact import limits
 from report.figures.contact.compliance import PROBE
 from report.figures.contact.in_contact import MEASURES, PAPERS_EULER, of, of_task
 from report.figures.kit import media
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 from tasks.contact_rest import HORIZON_S, REST
 
 STILLS = (

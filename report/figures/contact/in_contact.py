@@ -12,10 +12,10 @@ import pandas as pd
 from scipy.stats import fisher_exact
 
 import tasks
+from bench.experiments.tables.run import Run, require_rows
 from bench.findings.amounts import join_words, part_of
-from bench.findings.claims.tables import some
 from report.figures.kit import html, media
-from report.figures.kit.page import ABSENT, Run, in_run
+from report.figures.kit.page import ABSENT, in_run
 from report.figures.kit.spelling import spell_powers
 
 CARTESIAN, EULER = "hybrid-base+inverse", "hybrid/zyx-euler+inverse"
@@ -79,7 +79,7 @@ def facts(run: Run) -> dict:
 def describe_tasks(run: Run) -> dict:
     """Return how episodes end, in words and in a table."""
     found = [of_task(run, name) for name in MEASURES if len(run.any_rows("compliance", task=name))]
-    rows = pd.concat(some(found, "task in contact"), ignore_index=True)
+    rows = pd.concat(require_rows(found, "task in contact"), ignore_index=True)
     return {
         "outcomes": OUTCOMES(compare_tasks(rows)),
         **plate(rows),
@@ -123,7 +123,7 @@ CONTROLS = {
 
 def read_pegs(rows: pd.DataFrame, contender: str) -> dict[bool, pd.Series]:
     """Return whether each peg of a controller is not in at the end, by whether the hand's frame is tilted."""
-    pegs = of(some(rows[rows["task"] == "peg-in-hole"], "peg"), contender)
+    pegs = of(require_rows(rows[rows["task"] == "peg-in-hole"], "peg"), contender)
     is_out, is_tilted = pegs["jam"] != 0.0, pegs["beta_deg"] != 0.0
     return {False: is_out[~is_tilted], True: is_out[is_tilted]}
 

@@ -2,11 +2,10 @@
 
 from collections.abc import Iterator
 
-from bench.experiments.tables.read import table
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
 from report.figures.contact.in_contact import MEASURES, PAPERS, PAPERS_EULER, SPRINGS
 from report.figures.kit import html
-from report.figures.kit.page import Run
 
 SETTINGS = {
     "ideal": "Result with unlimited torque",
@@ -23,7 +22,7 @@ LIMITS = html.PageTable(
 
 def compare_settings() -> Iterator[tuple]:
     """Return a row a task and controller, with what is measured in each setting."""
-    rows = table(RESULTS / "contact", "contact_limits")
+    rows = Run(RESULTS / "contact").table("contact_limits")
     for task, measure in MEASURES.items():
         title = TITLES.get(task, measure.title)
         for controller, name in NAMES.items():

@@ -7,12 +7,12 @@ import numpy as np
 import pandas as pd
 
 import tasks
+from bench.experiments.tables.run import Run
 from bench.findings.amounts import join_words
 from bench.findings.theory.selection_theory import CASES, exerted_error, inertia_at
 from bench.law.control.contact_controller import SELECTION_ORDERS
 from report.figures.contact.in_contact import MEASURES, Measure
 from report.figures.kit import html
-from report.figures.kit.page import Run
 from tasks.domains import surface_alignment
 from tasks.rules import RULES
 

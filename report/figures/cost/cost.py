@@ -9,17 +9,16 @@ from typing import Any
 
 import pandas as pd
 
-from bench.experiments.tables import read
+from bench.experiments.tables.run import FREE_BODY, Run, require_rows
 from bench.experiments.tables.store import read_arrow
 from bench.findings.claims.adequacy import CALLS
 from bench.findings.claims.standing import MEASURABLE
-from bench.findings.claims.tables import some
 from bench.findings.selection.tables import ticks
 from bench.law.contenders.registry import all_contenders
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 
 LEAN = {"lean": FEEDBACK, "literal": next(one.name for one in all_contenders() if one.regulator.costing_only)}
 """The linearizing law as we write it and as it is printed."""
@@ -36,7 +35,7 @@ NARROW_LETTERS = 20
 @functools.cache
 def costs(run: Run) -> pd.DataFrame:
     """Return operations of all laws of the free body."""
-    return run.rows("costs", **read.FREE_BODY)
+    return run.rows("costs", **FREE_BODY)
 
 
 def facts(run: Run) -> dict[str, Any]:
@@ -64,7 +63,7 @@ def compare_forms(counted: pd.DataFrame) -> dict[str, int]:
 def share_of_time(run: Run) -> dict[str, str]:
     """Return the shares of a controller's time that the cheapest law, late braking and the most expensive take."""
     shares = {law: value for law, value in ticks(run).items() if not law.endswith("literal/zyx-euler")}
-    share = some(shares, "time of a law")
+    share = require_rows(shares, "time of a law")
     most = max(share, key=lambda law: share[law])
     shown = {"time_matrix": MATRIX, "time_late": "late-braking", "time_most": most}
     words = {
@@ -109,7 +108,7 @@ def count_operations(counted: pd.DataFrame) -> pd.DataFrame:
     rows = totals(counted)
     yours = [law for law in rows.index if (found := laws.contender(law)) and found.regulator.origin]
     shown = [law for law in (*PAPERS_ORDER, *LATER, *yours) if law in rows.index]
-    rows = some(rows.loc[shown], "cost of a law")
+    rows = require_rows(rows.loc[shown], "cost of a law")
     return pd.DataFrame({"flops": rows["flops"], "calls": rows[list(CALLS)].sum(axis=1)}).astype(int)
 
 

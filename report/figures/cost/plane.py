@@ -6,14 +6,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.ticker import FixedLocator, NullFormatter, NullLocator
 
-from bench.experiments.tables.read import FREE_BODY
+from bench.experiments.tables.run import FREE_BODY, MAIN_ENGINE, Run
 from bench.findings.claims import adequacy
-from bench.findings.claims.tables import MAIN_ENGINE
 from bench.findings.theory import closed_form
 from report.figures.cost.cost import LATER, PAPERS_ORDER, count_words, name_counts
 from report.figures.kit import families, laws, style
 from report.figures.kit.inline import Drawing, responsive_picture
-from report.figures.kit.page import Run
 from report.figures.kit.quotes import quote
 
 NEVER_S = 2.5

@@ -10,7 +10,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, NullLocator
 
-from bench.experiments.tables import read
+from bench.experiments.tables.run import Run, converged
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.amounts import count
 from bench.findings.claims.tables import settled
@@ -21,7 +21,7 @@ from bench.law.inputs import PAPERS_GAINS
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.inline import Drawing, Picture, responsive_picture
 from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 
 SETS = ("uniform", "half-turn", "poles", "wraps", "box")
 """Start sets at rest whose goal is zero."""
@@ -68,7 +68,7 @@ def facts(run: Run) -> dict:
 
 def on_the_map(run: Run) -> dict:
     """Return what the uniform starts of the run say, on the continuous plant, whose end no shorter step moves."""
-    rows = read.converged(run.rows("episodes", task="free-body", engine="ideal-rk4", start_set="uniform"))
+    rows = converged(run.rows("episodes", task="free-body", engine="ideal-rk4", start_set="uniform"))
     linearized, *others = (rows[rows["contender"] == name] for name in (LINEARIZED, MATRIX, FEEDBACK))
     failed, *lost = (own[~settled(own)] for own in (linearized, *others))
     return {

@@ -1,13 +1,10 @@
 """The laws as figures name them: the paper's three in its order, and any law of a run; and the gains of rows."""
 
-import functools
-from pathlib import Path
-
 import pandas as pd
 
-from bench.experiments.tables import read
+from bench.experiments.tables.run import shown_run
 from bench.law.contender import Contender
-from bench.law.contenders.registry import contenders, contenders_of, papers_laws
+from bench.law.contenders.registry import papers_laws
 from bench.law.kinds import Law
 
 TITLES = {one.name: one.regulator.title.partition(" (")[0] for one in papers_laws()}
@@ -22,14 +19,12 @@ def gains(rows: pd.DataFrame) -> tuple[float, float]:
 
 def regulator(word: str) -> Law | None:
     """Return the regulator of that name, the user's own of the run among them; None if there is none."""
-    return contenders("regulators").get(word) or _own(read.folder()).get(word)
+    return shown_run().find_law(word)
 
 
 def contender(name: str) -> Contender | None:
     """Return the contender of a name, as rows write it; None if there is none."""
-    law = regulator(regulator_of(name))
-    found = contenders_of(law) if law else []
-    return next((one for one in found if one.name == name.partition("@")[0]), None)
+    return shown_run().find_contender(name)
 
 
 def title(name: str) -> str:
@@ -55,10 +50,4 @@ def regulator_of(name: str) -> str:
 
 def is_users(word: str) -> bool:
     """Return whether a regulator came with the run that is shown, not with the benchmark."""
-    return word not in contenders("regulators") and word in _own(read.folder())
-
-
-@functools.cache
-def _own(folder: Path) -> dict[str, Law]:
-    """Return the user's laws of a run by name."""
-    return {one.name: one for one in read.own_laws(folder)} if (folder / "laws").is_dir() else {}
+    return shown_run().is_users(word)

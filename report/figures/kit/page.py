@@ -7,7 +7,6 @@ table that the run lacks (NoEvidence) are not in this run, and the page says so.
 an error.
 """
 
-import functools
 import importlib
 import re
 from collections.abc import Callable
@@ -15,13 +14,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-import pandas as pd
-
-from bench.base.errors import NoTable
-from bench.experiments.tables import read
-from bench.experiments.tables.schema import table_of
-from bench.findings.claims.tables import Results, some
-from bench.findings.claims.verdict import NoEvidence
+from bench.base.errors import NoEvidence, NoTable
+from bench.experiments.tables.run import Run, shown_run
 from report.figures.kit import html, spelling, style
 from report.figures.kit.inline import Drawing, responsive_picture
 
@@ -30,28 +24,6 @@ ABSENT = "not in this run"
 CALL = re.compile(r"^kit\.page\(([^)]*)\)$", re.MULTILINE)
 INLINE = re.compile(r"\{glue:(text|md)\}`([^`:]+)")
 BLOCK = re.compile(r"^\s*(?:`{3,}|:{3,})\{glue:?(md|figure|)\}\s+(\S+)", re.MULTILINE)
-
-
-class Run(Results):
-    """The run that is shown, beside the timings that are committed."""
-
-    folder: Path
-
-    def rows(self, table: str, **words: str) -> pd.DataFrame:
-        """Return rows of one of its tables that have these words; NoEvidence if there are none."""
-        return some(self.any_rows(table, **words), f"rows of {table} with {words} in {self.folder}")
-
-    def any_rows(self, table: str, **words: str) -> pd.DataFrame:
-        """Return the same, maybe none."""
-        if not (self.folder / f"{table}.parquet").is_file():
-            return pd.DataFrame(columns=[*(one.name for one in table_of(table).columns()), "contender"])
-        return self.table(table, **words)
-
-
-@functools.cache
-def run_in(folder: Path) -> Run:
-    """One object a folder, so that what is computed from a run is computed once (functools.cache)."""
-    return Run(folder)
 
 
 def in_run(make: Callable[..., Any], *arguments: Any) -> Any:
@@ -66,7 +38,7 @@ def page(*names: str) -> None:
     """Paste all of a page's modules, its own first: page("responses.settling_time", "responses.responses")."""
     from myst_nb import glue
 
-    run, text = run_in(read.folder()), text_of(names[0])
+    run, text = shown_run(), text_of(names[0])
     for name in names:
         module = importlib.import_module(f"report.figures.{name}")
         for key, value in contents(module, run, text).items():

@@ -8,13 +8,14 @@ import pandas as pd
 
 from bench.base.files import read_json
 from bench.experiments.shipped import BENT_DEG, FELT_RAD
+from bench.experiments.tables.run import Run
 from bench.findings.amounts import count, count_of
 from bench.findings.remedy import KEEP, fix_of
 from bench.law.contenders.registry import contenders
 from bench.law.shipped import POSITION, TORQUE, VELOCITY, AsShipped
 from bench.studies.restated.__main__ import STORED
 from report.figures.kit import html
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 from report.figures.kit.spelling import power
 
 LEVELS = (TORQUE, POSITION, VELOCITY)

@@ -1,8 +1,8 @@
 """The appendix on other libraries: how functions were tested, and questions of users."""
 
+from bench.experiments.tables.run import Run
 from bench.findings.questions import QUESTIONS, FieldQuestion
 from report.figures.kit import html
-from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
 from report.figures.libraries.as_shipped import reported
 from report.figures.libraries.libraries import COUNT_RAD, SINGLE_RAD, lines, passed, table

@@ -12,13 +12,14 @@ from typing import Any
 import pandas as pd
 
 from bench.base.files import read_json
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
 from bench.findings.amounts import capitalize, count_of, join_words
 from bench.findings.remedy import KEEP, fix_of
 from bench.studies.libraries.judge import COUNT_RAD, FORMS, SINGLE_RAD, WRONG_AXIS_RAD
 from report.figures.kit import html, spelling
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 from report.figures.kit.spelling import power
 from report.figures.libraries import as_shipped
 

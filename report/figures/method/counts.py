@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
-from bench.experiments.tables import read
+from bench.experiments.tables.run import Run, converged
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.amounts import count_of
 from bench.findings.maps import at_gains, count_in
@@ -20,7 +20,7 @@ from report.figures.comparison import comparison
 from report.figures.failures import failure_map
 from report.figures.kit import families, html
 from report.figures.kit.laws import MATRIX, TITLES
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 from report.figures.robustness import robustness
 from tasks.situation import NOMINAL
 
@@ -135,7 +135,7 @@ def count_settling(run: Run) -> Iterator[Count]:
     laws = [law for law in compared.laws if law not in (*families.CONTROLS, IN_ENGINE)]
     ideal, uniform = comparison.ideal(run), comparison.uniform(run)
     directed = comparison.directed_starts(ideal)
-    sure = read.converged(directed)
+    sure = converged(directed)
     a_law = directed.groupby("contender", observed=True).size()
     yield Count(
         name="laws tested for settling",

@@ -5,13 +5,13 @@ from typing import Any
 import pandas as pd
 
 from bench.engines.counting import RULES as COUNT_RULES
+from bench.experiments.tables.run import Run
 from bench.findings.amounts import count, count_of, join_words
 from bench.findings.theory.closed_form import linear_settling
 from bench.findings.why import CHATTER
 from bench.law.attribution import ADAPTED, OURS, PUBLISHED
 from bench.law.contenders.registry import contenders
 from report.figures.kit import families, html
-from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose
 from tasks.rules import RULES
 

@@ -9,13 +9,12 @@ import pandas as pd
 import pyarrow.parquet as pq
 
 from bench.base.provenance import ROOT
-from bench.experiments.tables import read
+from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import all_tables
 from bench.findings.amounts import join_words
 from report.figures.cost.cost import timings
 from report.figures.kit import html
 from report.figures.kit.offered import OFFERED_BYTES, SITE_DATA
-from report.figures.kit.page import Run
 
 CITATION = ROOT / "CITATION.cff"
 FACTS = html.PageTable("Property of the run | Value")
@@ -68,7 +67,7 @@ def facts(run: Run) -> dict[str, Any]:
     said = cited()
     version = f"{said['version']} ({said['date-released']})" if "date-released" in said else said["version"]
     files = FILES(map(describe_file, list_files(run)))
-    given = read.provenance()
+    given = run.provenance()
     return {
         "title": said["title"],
         "version": version,

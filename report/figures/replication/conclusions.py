@@ -3,13 +3,13 @@
 from collections.abc import Iterable, Iterator
 from typing import Any
 
+from bench.experiments.tables.run import Run
 from bench.findings import claims
 from bench.findings.claims import judge_possible
 from bench.findings.claims.verdict import Verdict
 from bench.findings.conclusions import Conclusion, conclude
 from report.figures.kit import html
 from report.figures.kit.law_names import call_laws
-from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose
 
 SHORT = html.PageTable("Murphy (1988) concluded | Our verdict | What we measured | Figure")

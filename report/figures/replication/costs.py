@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 from typing import Any
 
+from bench.experiments.tables.run import Run
 from bench.findings.claims import judge_possible
 from report.figures.kit import html
-from report.figures.kit.page import Run
 from report.figures.kit.quotes import quote
 from report.figures.kit.spelling import prose
 from report.figures.replication.conclusions import call_laws, link_claims

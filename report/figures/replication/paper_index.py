@@ -7,12 +7,12 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from bench.experiments.tables.run import Run
 from bench.findings.amounts import join_words
 from bench.findings.claims import all_claims, judge_possible
 from bench.findings.claims.errata import COVERAGE, Item
 from bench.findings.claims.verdict import Verdict
 from report.figures.kit import html
-from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose
 from report.figures.replication.conclusions import EVIDENCE, link_claims
 from report.subjects import find_pages

@@ -6,14 +6,13 @@ from typing import Any
 
 import pandas as pd
 
+from bench.experiments.tables.run import Run, require_rows
 from bench.experiments.tables.statistics import Estimate
-from bench.findings.claims.tables import some
 from bench.findings.conclusions import conclude, name_starts
 from bench.findings.failure_places import describe_failures
 from bench.findings.replication import measure_settling, starts_at_rest
 from report.figures.kit import families, html
 from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX
-from report.figures.kit.page import Run
 from report.figures.kit.quotes import quote
 from report.figures.kit.spelling import prose
 
@@ -42,7 +41,7 @@ def list_laws(run: Run, rows: pd.DataFrame) -> Iterator[tuple]:
     """Return a row for each of the paper's regulators."""
     words = {conclusion.name: conclusion.quote for conclusion in conclude(run)}
     for law, name in CONCLUSIONS.items():
-        episodes = some(rows[rows["contender"] == law], f"episode of {law}")
+        episodes = require_rows(rows[rows["contender"] == law], f"episode of {law}")
         settling = measure_settling(episodes)
         share = settling.share
         places = [prose(name_starts(place)) for place in describe_failures(episodes)]

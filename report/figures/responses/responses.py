@@ -7,13 +7,12 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from bench.experiments.tables.read import chosen
+from bench.experiments.tables.run import Run, choose_rows
 from bench.findings.claims.places import euler_angles_along
 from bench.findings.theory import closed_form
 from report.figures.kit import laws, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX, gains
-from report.figures.kit.page import Run
 from report.figures.kit.quotes import quote
 from report.figures.kit.spelling import power
 
@@ -104,8 +103,8 @@ def measure_response(
     """Return what the law of a figure does from the figure's start."""
     law = FIGURES[end]
     at = {"start_id": f"figure-2.{end}", "contender": law}
-    trace = chosen(traces, at)
-    row = chosen(episodes, at).iloc[0]
+    trace = choose_rows(traces, at)
+    row = choose_rows(episodes, at).iloc[0]
     peak_deg = float(np.degrees(trace["angle_rad"].max()))
     shown = trace[trace["time_s"] <= SHOWN_S]
     return LawResponse(law, shown, row, bend_deg(trace, kp, kv), peak_deg)

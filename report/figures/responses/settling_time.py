@@ -5,9 +5,9 @@ import re
 import numpy as np
 import pandas as pd
 
+from bench.experiments.tables.run import Run
 from bench.findings.theory import closed_form
 from report.figures.kit.laws import MATRIX
-from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
 
 DECADE = re.compile(r"-k(\d+)$")  # of a start that is 10^-k rad from 180°

@@ -10,12 +10,13 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.ticker import NullLocator
 
+from bench.experiments.tables.run import Run
 from bench.findings.selection.regions import find_default, list_ours, read_map
 from bench.findings.selection.unbeaten import find_runner_up
 from bench.findings.selection.words import together
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 from tasks.situation import NOMINAL, read_situation
 
 PANELS = {

@@ -8,12 +8,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from bench.experiments.tables.run import Run
 from bench.findings.perturbed import DETOUR, FAR_RAD
 from bench.findings.selection.regions import find_default
 from bench.findings.selection.reset import KEPT, RESET, SOON_S, describe_resets
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 from report.figures.robustness.half_turn_noise import regulator_of
 from report.figures.robustness.robustness import along, counted, laws
 

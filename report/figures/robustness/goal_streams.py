@@ -2,8 +2,8 @@
 
 import math
 
+from bench.experiments.tables.run import Run
 from report.figures.kit import html
-from report.figures.kit.page import Run
 from tasks.goal_stream import PERIOD_S
 
 

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from bench.experiments.tables import read
+from bench.experiments.tables.run import Run, shown_run
 from bench.findings.amounts import join_words
 from bench.findings.theory.thresholds import DELTAS, HALF_TURN, keeps, least
 from bench.law import DELTA
@@ -22,7 +22,6 @@ from bench.law.kinds import Law
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.laws import TITLES, gains
-from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
 from report.figures.robustness.robustness import along, laws, starts
 
@@ -145,7 +144,7 @@ def draw_key(figure: Figure, narrow: bool) -> None:
 
 def regulator_of(law: str) -> Law:
     """Return the regulator of a contender, the user's own of the run among them."""
-    return find_contender(law, read.own_laws()).regulator
+    return find_contender(law, shown_run().user_laws()).regulator
 
 
 def count(part: int, of: int) -> str:

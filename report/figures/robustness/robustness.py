@@ -8,9 +8,8 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.run import Run, require_rows, with_contender
 from bench.findings.amounts import capitalize
-from bench.findings.claims.tables import some
 from bench.findings.perturbed import (
     FOLLOWED_RAD,
     LOST,
@@ -25,7 +24,7 @@ from bench.findings.theory import robustness_theory
 from bench.findings.theory.thresholds import HALF_TURN
 from report.figures.kit import families, html
 from report.figures.kit.laws import gains
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import in_run
 
 AXES = tuple(tasks.axis_names())
 
@@ -74,7 +73,7 @@ def found(run: Run) -> Found:
         known = in_run(lambda axis=axis: thresholds(counted(run, axis)))
         for law in laws(along(run, axis)) if known else ():
             each.setdefault(law, {}).update(known[law])
-    return some(each, "perturbation")
+    return require_rows(each, "perturbation")
 
 
 def compared(each: Found) -> list[str]:

@@ -3,8 +3,7 @@
 m . omega = F_E . Edot        Edot = B^-1 omega, F_E = B^T m (3.12), or what the controller takes for it
 """
 
-import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import numpy as np
 
@@ -24,27 +23,38 @@ def work_residual(pose: Pose) -> float:
         return np.nan
     convert = hybrid.conversion(controller.representation, controller.converts)
     from_goal = controller.impedance is not None and controller.impedance.relative
-    works = np.array(
-        [work for one in pose.responses for work in _works(controller.representation, convert, from_goal, one)]
-    )
-    largest = works[:, 2].max()
-    return float(np.abs(works[:, 0] - works[:, 1]).max() / largest) if largest > 0.0 else np.nan
+    gaps, scales = [], []
+    for response in pose.responses:
+        m, omega, F_E, rates = sample_ports(controller.representation, convert, from_goal, response)
+        gaps.append(np.abs(dots(m, omega) - dots(F_E, rates)).max())
+        scales.append((np.sqrt(dots(m, m)) * np.sqrt(dots(omega, omega))).max())
+    # of a record that ends beyond all bounds, the largest is NaN
+    largest = np.max(scales)
+    return float(np.max(gaps) / largest) if largest > 0.0 else np.nan
 
 
-def _works(
-    coordinates: Coordinates, convert: Callable, from_goal: bool, one: ContactResponse
-) -> Iterator[tuple[float, float, float]]:
-    """(m . omega, F_E . Edot, |m| |omega|) at some ticks [W]."""
-    goal = from_quaternion(one.trial.goal_wxyz)
-    ticks = np.linspace(0, len(one.time) - 1, TICKS).astype(int)
-    sampled = (one.R[ticks].transpose(0, 2, 1).tolist(), one.moment[ticks].tolist(), one.omega[ticks].tolist())
-    for columns, m, omega in zip(*sampled, strict=True):
+def sample_ports(
+    coordinates: Coordinates, convert: Callable, from_goal: bool, response: ContactResponse
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Return m [N m], omega [rad/s], F_E and Edot at TICKS ticks of an episode, TICKS x 3 each."""
+    goal = from_quaternion(response.trial.goal_wxyz)
+    ticks = np.linspace(0, len(response.time) - 1, TICKS).astype(int)
+    frames = response.R[ticks].transpose(0, 2, 1).tolist()
+    moments, velocities = response.moment[ticks].tolist(), response.omega[ticks].tolist()
+    ports = []
+    for columns, m, omega in zip(frames, moments, velocities, strict=True):
         R = Rotation(*columns)
         if from_goal:
             R, m, omega = relative(goal, R), rotate_back(goal, m), rotate_back(goal, omega)
         at = coordinates.chart(R)
-        work = np.dot(convert(at, m), coordinates.rates(at, omega))
-        yield np.dot(m, omega), work, math.sqrt(np.dot(m, m)) * math.sqrt(np.dot(omega, omega))
+        ports.append((m, omega, convert(at, m), coordinates.rates(at, omega)))
+    m, omega, F_E, rates = np.array(ports, float).transpose(1, 0, 2)
+    return m, omega, F_E, rates
+
+
+def dots(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return the products of the rows of two arrays, each as `numpy.dot` rounds it."""
+    return np.array([row @ other for row, other in zip(a, b, strict=True)])
 
 
 METRIC = ContactMetric("work_residual", "1", "work lost between Cartesian and generalized forces", work_residual)

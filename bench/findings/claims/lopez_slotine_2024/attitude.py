@@ -2,14 +2,15 @@
 
 import math
 
+from bench.base.errors import NoEvidence
 from bench.base.on_first_use import pd
 from bench.experiments.probes import sliding
-from bench.experiments.tables import read
+from bench.experiments.tables.run import FREE_BODY, MAIN_ENGINE, Run, require_rows
 from bench.findings.amounts import count_of
 from bench.findings.claims import places
 from bench.findings.claims.adequacy import NOISE
-from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, settled, settled_of, some
-from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, word_of
+from bench.findings.claims.tables import check_starts, evidence, settled, settled_of
+from bench.findings.claims.verdict import Evidence, Word, claim, word_of
 from bench.findings.perturbed import DETOUR
 from bench.findings.proofs.certificate import read_certificates
 from bench.findings.start_sets import least_starts
@@ -44,25 +45,25 @@ KEPT_DEG = math.degrees(2.0 * math.asin(DELTA))
 """How far beyond 180° the law with memory may go on [degrees]."""
 
 
-def gains_of(results: Results) -> Gains:
+def gains_of(run: Run) -> Gains:
     """Return the run's gains; NoEvidence: they have no real poles, and then the law has no sliding variable."""
-    gains = results.gains()
+    gains = run.gains()
     if gains.kv**2 < 4.0 * gains.kp:
         raise NoEvidence(f"no sliding variable has the poles of the gains at Kv = {gains.kv:g}: Kv^2 must be 4 Kp")
     return gains
 
 
-def episodes(results: Results, law: str, *start_sets: str) -> pd.DataFrame:
+def episodes(run: Run, law: str, *start_sets: str) -> pd.DataFrame:
     """Return the episodes of a law in continuous time; NoEvidence: fewer than a suite has of a later law."""
-    rows = results.free_body("episodes", task="free-body", regulator=law, engine=MAIN_ENGINE)
-    rows = some(rows[rows["start_set"].isin(start_sets)], f"episode of {law}")
-    results.check_starts(rows, law, least_starts(MAIN_ENGINE, "beyond"), *start_sets)
+    rows = run.free_body("episodes", task="free-body", regulator=law, engine=MAIN_ENGINE)
+    rows = require_rows(rows[rows["start_set"].isin(start_sets)], f"episode of {law}")
+    check_starts(run, rows, law, least_starts(MAIN_ENGINE, "beyond"), *start_sets)
     return rows
 
 
-def at_rest(results: Results, law: str) -> pd.DataFrame:
+def at_rest(run: Run, law: str) -> pd.DataFrame:
     """Return the episodes of a law from uniform starts, 180° rotations and poles."""
-    return episodes(results, law, "uniform", "half-turn", "poles")
+    return episodes(run, law, "uniform", "half-turn", "poles")
 
 
 def at_half_turn(rows: pd.DataFrame) -> pd.DataFrame:
@@ -70,29 +71,29 @@ def at_half_turn(rows: pd.DataFrame) -> pd.DataFrame:
     return places.at_boundary(rows, "half_turn", "start exactly at 180°")
 
 
-def count_field(results: Results, finding: str) -> tuple[int, int]:
+def count_field(run: Run, finding: str) -> tuple[int, int]:
     """Return at how many 180° rotations the command shows a finding, and of how many."""
-    rows = results.table("command-field", regulator=LAW, finding=finding, **read.FREE_BODY)
-    row = some(rows, f"finding {finding} about {LAW}").iloc[0]
+    rows = run.table("command-field", regulator=LAW, finding=finding, **FREE_BODY)
+    row = require_rows(rows, f"finding {finding} about {LAW}").iloc[0]
     return int(row["found"]), int(row["of"])
 
 
-def under(results: Results, law: str, axis: str) -> pd.DataFrame:
+def under(run: Run, law: str, axis: str) -> pd.DataFrame:
     """Return the episodes of a law along a perturbation."""
-    rows = results.table("robustness", regulator=law, axis=axis)
-    return some(rows, f"episode of {law} under {axis}")
+    rows = run.table("robustness", regulator=law, axis=axis)
+    return require_rows(rows, f"episode of {law} under {axis}")
 
 
-def least_noise(results: Results, law: str) -> pd.DataFrame:
+def least_noise(run: Run, law: str) -> pd.DataFrame:
     """Return the episodes from exact 180° rotations with the least noise that is not zero."""
-    rows = under(results, law, NOISE)
+    rows = under(run, law, NOISE)
     noisy = rows[rows["level"] > 0.0]
-    return some(noisy[noisy["level"] == noisy["level"].min()], f"episode of {law} with noise")
+    return require_rows(noisy[noisy["level"] == noisy["level"].min()], f"episode of {law} with noise")
 
 
-def withstand_noise(results: Results, law: str) -> float:
+def withstand_noise(run: Run, law: str) -> float:
     """Return the least noise at 180° from which some start of a law does not settle [rad]; infinite: there is none."""
-    rows = under(results, law, NOISE)
+    rows = under(run, law, NOISE)
     return float(rows.loc[~settled(rows), "level"].min())
 
 
@@ -102,12 +103,12 @@ def decide(word: Word, text: str, rows: int, instead: str = "") -> tuple[Word, E
 
 
 @claim("LS01")
-def ls01(results: Results) -> tuple[Word, Evidence]:
+def ls01(run: Run) -> tuple[Word, Evidence]:
     """Commands from starts at and near every pole and 180° rotation, and of the field at 180°."""
-    bound = 2.0 * gains_of(results).kp
-    rows = at_rest(results, LAW)
-    undefined, looked_at = count_field(results, "no-number-half-turns")
-    jumps, tried = count_field(results, "jump-half-turns")
+    bound = 2.0 * gains_of(run).kp
+    rows = at_rest(run, LAW)
+    undefined, looked_at = count_field(run, "no-number-half-turns")
+    jumps, tried = count_field(run, "jump-half-turns")
     largest = float(rows["peak_u"].max())
     is_bounded = largest <= bound * (1.0 + SLACK)
     is_free = is_bounded and settled(rows).all() and not undefined
@@ -121,11 +122,11 @@ def ls01(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("LS02")
-def ls02(results: Results) -> tuple[Word, Evidence]:
+def ls02(run: Run) -> tuple[Word, Evidence]:
     """Outcomes without noise, the decay of T against its proved bound, and the least noise at 180°."""
-    gains_of(results)
-    rows, noisy = at_rest(results, LAW), least_noise(results, LAW)
-    decay, bound = results.probe("sliding-decay"), results.probe("sliding-bound")
+    gains_of(run)
+    rows, noisy = at_rest(run, LAW), least_noise(run, LAW)
+    decay, bound = run.probe("sliding-decay"), run.probe("sliding-bound")
     error, share = float(decay["decay_gap"].max()), float(bound["share_of_bound"].max())
     nearest = decay.iloc[-1]  # the last axis of the angles nearest to 180°
     is_exponential = error <= SLACK and share <= 1.0 + SLACK
@@ -146,12 +147,12 @@ def ls02(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("LS03")
-def ls03(results: Results) -> tuple[Word, Evidence]:
+def ls03(run: Run) -> tuple[Word, Evidence]:
     """Paths from rest, and what a stored sign adds after a jump of the goal."""
-    gains_of(results)
-    rows = at_rest(results, LAW)
+    gains_of(run)
+    rows = at_rest(run, LAW)
     longest = float(rows["path_ratio"].max())
-    jump, jump_kept = (under(results, law, "goal-jump")["path_ratio"].max() for law in (LAW, WITH_MEMORY))
+    jump, jump_kept = (under(run, law, "goal-jump")["path_ratio"].max() for law in (LAW, WITH_MEMORY))
     return decide(
         word_of(longest < DETOUR, False),
         f"""From {len(rows):,} starts at rest, the longest path is {longest:.4f} times the shortest. After a jump of the
@@ -162,10 +163,10 @@ def ls03(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("LS04")
-def ls04(results: Results) -> tuple[Word, Evidence]:
+def ls04(run: Run) -> tuple[Word, Evidence]:
     """Motions of the law in both frames from the same starts."""
-    gains_of(results)
-    frames = results.probe("sliding-frames")
+    gains_of(run)
+    frames = run.probe("sliding-frames")
     gap = float(frames["angle_gap"].max())
     is_at_rest = frames["case"].astype(str).str.startswith("uniform")
     at_rest, spinning = (float(frames.loc[which, "orientation_gap"].max()) for which in (is_at_rest, ~is_at_rest))
@@ -179,10 +180,10 @@ def ls04(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("LS05")
-def ls05(results: Results) -> tuple[Word, Evidence]:
+def ls05(run: Run) -> tuple[Word, Evidence]:
     """Starts at and near the poles of Euler angles, of this law and of one on Euler angles."""
-    gains_of(results)
-    rows, euler = (episodes(results, law, "poles") for law in (LAW, EULER))
+    gains_of(run)
+    rows, euler = (episodes(run, law, "poles") for law in (LAW, EULER))
     return decide(
         word_of(settled(rows).all() and not settled(euler).all(), False),
         f"""At and near the poles of Euler angles, {settled_of(rows, "starts")} settle with the quaternion, and
@@ -192,14 +193,14 @@ def ls05(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("LS06")
-def ls06(results: Results) -> tuple[Word, Evidence]:
+def ls06(run: Run) -> tuple[Word, Evidence]:
     """Exact 180° rotations without noise and with noise: this law, one on the rotation matrix, and one with memory."""
-    gains_of(results)
-    held, held_kept = (results.probe("sliding-noise", regulator=law) for law in (LAW, WITH_MEMORY))
+    gains_of(run)
+    held, held_kept = (run.probe("sliding-noise", regulator=law) for law in (LAW, WITH_MEMORY))
     count_held, count_kept = (int((~settled(one)).sum()) for one in (held, held_kept))
-    rows = at_rest(results, LAW)
-    exact, smooth = at_half_turn(rows), at_half_turn(episodes(results, SMOOTH, "half-turn"))
-    noisy, kept = least_noise(results, LAW), least_noise(results, WITH_MEMORY)
+    rows = at_rest(run, LAW)
+    exact, smooth = at_half_turn(rows), at_half_turn(episodes(run, SMOOTH, "half-turn"))
+    noisy, kept = least_noise(run, LAW), least_noise(run, WITH_MEMORY)
     is_global = settled(rows).all() and settled(noisy).all() and not count_held
     proofs = read_certificates()
     stands, stands_kept = (proofs.get(law, {}).get("stands", "nothing") for law in (LAW, WITH_MEMORY))
@@ -207,7 +208,7 @@ def ls06(results: Results) -> tuple[Word, Evidence]:
         noise, {settled_of(noisy, "starts")} settle, and with memory {settled_of(kept, "starts")}. At a period of
         {1e6 * min(PERIODS_S):.0f} µs, {held['noise_rad'].min():.0e} rad is enough."""
     instead = f"""{NOMINAL} The body leaves 180° because the command jumps there, not because of the quaternion.
-        The law with memory fails only from {withstand_noise(results, WITH_MEMORY):g} rad of noise on. Its price is a
+        The law with memory fails only from {withstand_noise(run, WITH_MEMORY):g} rad of noise on. Its price is a
         turn of up to {KEPT_DEG:.0f}° beyond 180°."""
     return word_of(is_global, False), evidence(
         f"""{text} With the law on the rotation matrix, {settled_of(smooth, "starts")} at exactly 180° settle without
@@ -223,21 +224,21 @@ def ls06(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("LS07")
-def ls07(results: Results) -> tuple[Word, Evidence]:
+def ls07(run: Run) -> tuple[Word, Evidence]:
     """No rows: the sentence is about other authors' works, and we could not read which."""
     return Word.UNTESTED, evidence(OTHER_VARIABLES, 0)
 
 
 @claim("LS08")
-def ls08(results: Results) -> tuple[Word, Evidence]:
+def ls08(run: Run) -> tuple[Word, Evidence]:
     """No rows: the sentence is about other authors' works, and we could not read which."""
     return Word.UNTESTED, evidence(OTHER_LAWS, 0)
 
 
 @claim("LS09")
-def ls09(results: Results) -> tuple[Word, Evidence]:
+def ls09(run: Run) -> tuple[Word, Evidence]:
     """Arms with our controllers, which do not decide: the paper's torque law could not be read."""
-    rows = results.table("episodes", task="arm-regulation", regulator=LAW)
+    rows = run.table("episodes", task="arm-regulation", regulator=LAW)
     return Word.UNTESTED, evidence(
         f"""We could not read the torque law, so we cannot simulate it. On arms, with our Jacobians and inverses in
         place of that law, {settled_of(rows, "episodes")} of `{LAW}` settle. These episodes do not decide the claim.""",
@@ -246,12 +247,12 @@ def ls09(results: Results) -> tuple[Word, Evidence]:
 
 
 @claim("LS10")
-def ls10(results: Results) -> tuple[Word, Evidence]:
+def ls10(run: Run) -> tuple[Word, Evidence]:
     """Goals that move, with their rate and acceleration given to the law."""
-    gains_of(results)
-    decay = results.probe("sliding-decay")
+    gains_of(run)
+    decay = run.probe("sliding-decay")
     error = float(decay["decay_gap"].max())
-    rows = under(results, LAW, "moving-goal")
+    rows = under(run, LAW, "moving-goal")
     return decide(
         word_of(settled(rows).all() and error <= SLACK, False),
         f"""With goals that swing at up to {rows["level"].max():g} rad/s, {settled_of(rows, "starts")} settle. Largest
