@@ -35,7 +35,7 @@ class Moment(NamedTuple):
     noise: tuple
 
 
-class Loop(NamedTuple):
+class LoopFields(NamedTuple):
     """Fields that the loop itself reads, to call the hooks in time, and to show limits to the law.
 
     Attributes:

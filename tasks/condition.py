@@ -10,7 +10,7 @@ from collections import namedtuple
 from typing import Any
 
 from tasks import conditions
-from tasks.axis import HOOKS, Axis, Field, Loop, Value, spread
+from tasks.axis import HOOKS, Axis, Field, LoopFields, Value, spread
 from tasks.discovery import constants
 from tasks.errors import BadValue
 
@@ -51,7 +51,7 @@ def _find_fault(field: Field) -> str:
     if isinstance(field.default, tuple) and len([*field.default]) != 3:
         return f"must be a number or three numbers, not {field.default!r}"
     if field.in_loop:
-        is_read, known = field.name in Loop._fields, ", ".join(Loop._fields)
+        is_read, known = field.name in LoopFields._fields, ", ".join(LoopFields._fields)
         return "" if is_read else f"is not read by the loop, which reads {known} (give it a hook)"
     if not any(getattr(field, hook) for hook in HOOKS):
         return (
@@ -90,10 +90,10 @@ class Condition(_VALUES):
         return bool(self.acting("lasts"))
 
     @property
-    def loop(self) -> Loop:
+    def loop(self) -> LoopFields:
         """Return the values that the loop reads."""
         read = [field.name for field in FIELDS if field.in_loop]
-        return Loop(**{name: getattr(self, name) for name in read})
+        return LoopFields(**{name: getattr(self, name) for name in read})
 
 
 def condition_at(axis: Axis, level: float) -> Condition:

@@ -30,7 +30,7 @@ LENGTH_M, STIFFNESS = 0.1, 1000.0
 """What makes errors of the reward forces: moments are over this length, deviations times this stiffness [N/m]."""
 
 
-class InContact(Driven):
+class DrivenInContact(Driven):
     """Carry out an order; episodes end at the horizon only."""
 
     def __init__(self, trial: Trial, horizon_ticks: int):
@@ -124,5 +124,5 @@ def environment(
     if vary:
         vary(physics.model.ptr)
     horizon = ticks(task.horizon_s, dt)
-    doing, limit = InContact(trial, horizon), (horizon - 0.5) * dt
+    doing, limit = DrivenInContact(trial, horizon), (horizon - 0.5) * dt
     return control.Environment(physics, doing, time_limit=limit, control_timestep=dt, legacy_step=True)

@@ -12,7 +12,7 @@ from bench.audit.pairs import Pairs, Place
 from bench.base.errors import BadNumber, UnknownWord
 
 
-class Form(NamedTuple):
+class ErrorForm(NamedTuple):
     """A form by its closed form: size(theta), along k."""
 
     title: str
@@ -20,11 +20,11 @@ class Form(NamedTuple):
 
 
 FORMS = {
-    "rotation-vector": Form("θ", size=lambda theta: theta),
-    "sine-of-half": Form("2 sin(θ/2)", size=lambda theta: 2.0 * np.sin(theta / 2.0)),
-    "sine": Form("sin θ", size=np.sin),
-    "mrp": Form("4 tan(θ/4)", size=lambda theta: 4.0 * np.tan(theta / 4.0)),
-    "gibbs": Form("2 tan(θ/2)", size=lambda theta: 2.0 * np.tan(theta / 2.0)),
+    "rotation-vector": ErrorForm("θ", size=lambda theta: theta),
+    "sine-of-half": ErrorForm("2 sin(θ/2)", size=lambda theta: 2.0 * np.sin(theta / 2.0)),
+    "sine": ErrorForm("sin θ", size=np.sin),
+    "mrp": ErrorForm("4 tan(θ/4)", size=lambda theta: 4.0 * np.tan(theta / 4.0)),
+    "gibbs": ErrorForm("2 tan(θ/2)", size=lambda theta: 2.0 * np.tan(theta / 2.0)),
 }
 """What three numbers can say of a rotation by theta about k, each theta k near the identity.
 

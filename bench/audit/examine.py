@@ -9,8 +9,17 @@ import numpy as np
 from bench.audit import convention, pairs
 from bench.audit.calls import Call, ways_to_call
 from bench.audit.convention import TAKES, Convention, Stated
-from bench.audit.examined import NO_THREE_NUMBERS, Evidence, Examined, Found, Fresh, Lost, evaluate, inputs
-from bench.audit.faults import Finding, every_fault
+from bench.audit.examined import (
+    NO_THREE_NUMBERS,
+    Examined,
+    Fresh,
+    Lost,
+    PairEvidence,
+    Symptom,
+    evaluate,
+    inputs,
+)
+from bench.audit.faults import FoundFault, every_fault
 from bench.audit.report import Report
 from bench.base.errors import BadFunction
 
@@ -44,22 +53,28 @@ def call_again(call: Call, fresh: Fresh, watch: Callable) -> Callable:
 def report_lost(name: str, lost: Lost) -> Report:
     """Return the report on a function that did not come back from a call: that fault alone."""
     (fault,) = (one for one in every_fault() if one.name == lost.fault)
-    evidence = Evidence(lost.now, lost.goal, lost.how)
+    evidence = PairEvidence(lost.now, lost.goal, lost.how)
     call = Call("matrix" if lost.now.shape == (3, 3) else "wxyz")
-    return Report(name, 0, call, None, (Finding(fault, Found(f"{lost.how}; nothing more was tried", evidence)),))
+    return Report(
+        name,
+        0,
+        call,
+        None,
+        (FoundFault(fault, Symptom(f"{lost.how}; nothing more was tried", evidence)),),
+    )
 
 
 UNKNOWN, VOID = "misaligned", "memory"
 
 
-def findings(examined: Examined) -> tuple[Finding, ...]:
+def findings(examined: Examined) -> tuple[FoundFault, ...]:
     """Return what is wrong with it, faults first, without what others explain."""
     found = [(one, one.find(examined)) for one in every_fault()]
     names = {one.name for one, what in found if what}
     if VOID in names - set(examined.stated.allow):  # every other answer is in doubt
         found = [(one, what) for one, what in found if one.name == VOID]
     kept = [
-        Finding(one, what, one.name in examined.stated.allow)
+        FoundFault(one, what, one.name in examined.stated.allow)
         for one, what in found
         if what and not names & set(one.unless)
     ]

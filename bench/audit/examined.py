@@ -29,7 +29,7 @@ class Lost(BaseException):
 FAULT, NOTE = "fault", "note"
 
 
-class Evidence(NamedTuple):
+class PairEvidence(NamedTuple):
     """A pair to reproduce: what the function is given, what it said, and what would be right, if that is known."""
 
     now: np.ndarray
@@ -38,14 +38,14 @@ class Evidence(NamedTuple):
     right: np.ndarray | str = ""
 
 
-class Found(NamedTuple):
+class Symptom(NamedTuple):
     """What `find` returns: how it shows, in numbers; a pair; and whether it is a property that one may want.
 
     effect, cure: of this function, where the fault's own words are too general.
     """
 
     text: str
-    evidence: Evidence | None = None
+    evidence: PairEvidence | None = None
     severity: str = FAULT
     effect: str = ""
     cure: str = ""
@@ -171,19 +171,19 @@ class Examined:
         """Return its answers to other pairs."""
         return evaluate(self.function, *inputs(self.takes, of))
 
-    def evidence(self, i: int, right: bool = True) -> Evidence:
+    def evidence(self, i: int, right: bool = True) -> PairEvidence:
         """Return the pair of this number."""
         one = self.pairs.chosen(slice(i, i + 1))
         (now,), (goal,) = inputs(self.takes, one)
         truth = self.truth[i] if right and np.isfinite(self.truth[i]).all() else ""
-        return Evidence(now, goal, self.raised[i] or self.e[i], truth)
+        return PairEvidence(now, goal, self.raised[i] or self.e[i], truth)
 
     def first(
         self, which: np.ndarray, text: str, right: bool = True, severity: str = FAULT
-    ) -> Found | None:
+    ) -> Symptom | None:
         """Return what is found at the first pair of a mask; None if the mask is empty."""
         return (
-            Found(text, self.evidence(int(np.argmax(which)), right), severity)
+            Symptom(text, self.evidence(int(np.argmax(which)), right), severity)
             if which.any()
             else None
         )
@@ -220,7 +220,7 @@ EXPLAINED_RAD = 1e-3
 
 def explanation(
     examined: Examined, models: Callable[[Pairs], Iterable[Model]], text: str, right: bool = False
-) -> Found | None:
+) -> Symptom | None:
     """Return the model along whose vectors most answers lie, with a pair that shows it; None if there is none.
 
     models: pairs -> (words, vectors n x 3) of each. text: what is said, with {} for a model's words.
@@ -234,5 +234,5 @@ def explanation(
         is_along = (angle < EXPLAINED_RAD) | (angle > np.pi - EXPLAINED_RAD)
         if is_along.mean() > share:
             evidence = examined.evidence(int(here[np.argmax(is_along)]), right)
-            best, share = Found(text.format(words), evidence), float(is_along.mean())
+            best, share = Symptom(text.format(words), evidence), float(is_along.mean())
     return best

@@ -6,8 +6,8 @@ import numpy as np
 
 from bench.audit.calls import Call
 from bench.audit.convention import Convention
-from bench.audit.examined import FAULT, NOTE, Evidence
-from bench.audit.faults import Finding
+from bench.audit.examined import FAULT, NOTE, PairEvidence
+from bench.audit.faults import FoundFault
 
 
 class Report(NamedTuple):
@@ -17,7 +17,7 @@ class Report(NamedTuple):
     pairs: int
     call: Call
     convention: Convention | None
-    findings: tuple[Finding, ...]
+    findings: tuple[FoundFault, ...]
 
     @property
     def faults(self) -> tuple[str, ...]:
@@ -79,14 +79,14 @@ class Report(NamedTuple):
 ALLOWED = "allowed"
 
 
-def severity(finding: Finding) -> str:
+def severity(finding: FoundFault) -> str:
     """Return the word for a finding: fault, allowed or note."""
     if finding.is_allowed and finding.found.severity == FAULT:
         return ALLOWED
     return finding.found.severity
 
 
-def paragraph(report: Report, finding: Finding) -> str:
+def paragraph(report: Report, finding: FoundFault) -> str:
     """One finding for people."""
     said = as_dict(finding)
     lines = [
@@ -98,7 +98,7 @@ def paragraph(report: Report, finding: Finding) -> str:
     return "\n".join((*lines, *(f"    {line}" for line in code(report, finding.found.evidence))))
 
 
-def code(report: Report, evidence: Evidence | None) -> list[str]:
+def code(report: Report, evidence: PairEvidence | None) -> list[str]:
     """Return the pair as lines to paste."""
     if evidence is None:
         return []
@@ -116,7 +116,7 @@ def numbers(value: np.ndarray | str) -> str:
     return value if isinstance(value, str) else str((np.asarray(value) + 0.0).tolist())
 
 
-def as_dict(finding: Finding) -> dict[str, Any]:
+def as_dict(finding: FoundFault) -> dict[str, Any]:
     """One finding for machines; numbers that are none as words, for JSON has no other."""
     fault, found = finding.fault, finding.found
     evidence = found.evidence

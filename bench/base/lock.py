@@ -11,8 +11,8 @@ from bench.base.errors import BadResults
 
 
 @contextlib.contextmanager
-def held(folder: Path, flock: Callable = fcntl.flock) -> Iterator[None]:
-    """Hold a folder; BadResults names the process that holds it already. Nobody waits for a lock, here or elsewhere.
+def lock_folder(folder: Path, flock: Callable = fcntl.flock) -> Iterator[None]:
+    """Lock a folder, without waiting; BadResults names the process that has locked it already.
 
     Some network file systems lock no folder: this is printed, and the run goes on.
     """

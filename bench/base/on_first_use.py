@@ -7,7 +7,7 @@ later: these import `pd` from here; elsewhere `import pandas as pd` is right.
 import importlib
 from typing import TYPE_CHECKING, Any
 
-__all__ = ["Turn", "pd"]
+__all__ = ["ScipyRotation", "pd"]
 
 
 class DeferredImport:
@@ -23,6 +23,9 @@ class DeferredImport:
 
 if TYPE_CHECKING:
     import pandas as pd
-    from scipy.spatial.transform import Rotation as Turn
+    from scipy.spatial.transform import Rotation as ScipyRotation
 else:
-    pd, Turn = DeferredImport("pandas"), DeferredImport("scipy.spatial.transform", "Rotation")
+    pd, ScipyRotation = (
+        DeferredImport("pandas"),
+        DeferredImport("scipy.spatial.transform", "Rotation"),
+    )

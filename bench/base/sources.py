@@ -97,6 +97,12 @@ class Reader:
     Args:
         root: Folder of the packages.
         memory: File in which digests are kept; None keeps none.
+
+    Attributes:
+        find_file: Function from the name of a module to its file; None of a name that is not ours.
+        follow: Function from the name of a module to its file, the files of its parent packages, and
+            those of all that these import. A package that is imported by its name brings all its
+            modules: who has it may look into its folder for them.
     """
 
     def __init__(self, root: Path = ROOT, memory: Path | None = None) -> None:
@@ -105,6 +111,11 @@ class Reader:
         self._times: dict[Path, int] = {}
         self._kept = _read_memory(memory)
         self._has_new = False
+        # Each reader has its own caches: a cache on a method would keep every reader until the end.
+        self.find_file = functools.cache(self._find_file)
+        self.follow = functools.cache(self._follow)
+        self._list_needed = functools.cache(self._find_needed)
+        self._list_modules = functools.cache(self._find_modules)
 
     def read(self, path: Path) -> Source:
         """Return what a file says."""
@@ -145,9 +156,7 @@ class Reader:
             return all(path.stat().st_mtime_ns == time for path, time in self._times.items())
         return False
 
-    @functools.cache  # noqa: B019
-    def find_file(self, module: str) -> Path | None:
-        """Return the file of a module of ours; None of any other name."""
+    def _find_file(self, module: str) -> Path | None:
         if module.partition(".")[0] not in PACKAGES:
             return None
         place = self.root / module.replace(".", "/")
@@ -162,12 +171,7 @@ class Reader:
         paths = sorted(place.rglob("*")) if place.is_dir() else [place]
         return [path for path in paths if path.suffix in SUFFIXES]
 
-    @functools.cache  # noqa: B019  a process has one reader, or a test's few
-    def follow(self, module: str) -> frozenset[Path]:
-        """Return the file of a module, those of its parent packages, and those of all that these import.
-
-        A package that is imported by its name brings all its modules: who has it may look into its folder for them.
-        """
+    def _follow(self, module: str) -> frozenset[Path]:
         found: set[str] = set()
         waiting = [module]
         while waiting:
@@ -178,8 +182,7 @@ class Reader:
         paths = map(self.find_file, found)
         return frozenset(path for path in paths if path is not None)
 
-    @functools.cache  # noqa: B019
-    def _list_needed(self, name: str) -> tuple[str, ...]:
+    def _find_needed(self, name: str) -> tuple[str, ...]:
         """Return what a name needs at once: its package, or the module that has it; and what its file imports."""
         parent, _, _ = name.rpartition(".")
         needed = {parent} if parent else set()
@@ -193,8 +196,7 @@ class Reader:
                 needed.update(self._list_modules(file.parent))
         return tuple(needed)
 
-    @functools.cache  # noqa: B019
-    def _list_modules(self, folder: Path) -> list[str]:
+    def _find_modules(self, folder: Path) -> list[str]:
         paths = (path.relative_to(self.root).with_suffix("") for path in folder.rglob("*.py"))
         return [".".join(path.parts).removesuffix(".__init__") for path in paths]
 

@@ -35,19 +35,19 @@ def time(word: object) -> float:
     return seconds
 
 
-BOUND = options.Number(1e-9, 1e9, 30, infinite="no bound")
+BOUND = options.NumberOption(1e-9, 1e9, 30, infinite="no bound")
 """[rad/s^2]: the lowest turns a body by a radian in half a day, the highest is a thousand times the judge's limit."""
 
-RATE = options.Number(1e-3, 1e7, 1000)
+RATE = options.NumberOption(1e-3, 1e7, 1000)
 """[Hz]: the shortest control period of a run is a microsecond; a tick in more than 1000 s comes after every horizon."""
 
-SPIN = options.Number(0.0, 1e4, 1)
+SPIN = options.NumberOption(0.0, 1e4, 1)
 """[rad/s]: the judge's speed limit, above which an orientation can no longer be followed at 1 kHz."""
 
-INERTIA = options.Number(1e-3, 1e3, 1)
+INERTIA = options.NumberOption(1e-3, 1e3, 1)
 """True over assumed: a factor of a thousand is another robot."""
 
-UNEVENNESS = options.Number(0.0, 0.5, 0.3)
+UNEVENNESS = options.NumberOption(0.0, 0.5, 0.3)
 """Above 0.5 the smallest of 1 - s, 1, 1 + s is less than the difference of the others, which no body has."""
 
 
@@ -194,7 +194,7 @@ def _answer_other_robot(robot: str) -> Reply:
         return Reply([Paragraph("Which law", (text,))], None)
     tied = f", tied with {listed(verdict.tied)}" if verdict.tied else ""
     text = (
-        f"Use {verdict.law}{tied}. Your robot takes {kind.takes}; {counted(verdict.asked, 'law')} of "
+        f"Use {verdict.law}{tied}. Your robot takes {kind.takes}; {counted(verdict.eligible, 'law')} of "
         f"results/reference ({kind.rows}) meet the requirements, and were compared by the rule of the map. Gains, "
         "bound and timing do not enter here: laws of first order have one gain, and its time scale is 1/K."
     )

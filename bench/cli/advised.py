@@ -13,7 +13,7 @@ from bench.findings.selection.advice import Advice, list_unmapped, loop_of
 from bench.findings.selection.nearest import Outside
 from bench.findings.selection.regions import RULE, TIE, facts_of, find_overshooting, meets_but_overshoot
 from bench.findings.selection.words import NAMES
-from bench.findings.theory.sampled_loop import Limits, mode_time
+from bench.findings.theory.sampled_loop import StabilityLimits, mode_time
 from bench.law.contenders.registry import find_contender
 from tasks.situation import COORDINATES, KP
 
@@ -81,7 +81,7 @@ def _describe_none(advice: Advice, kp: float) -> list[str]:
     ]
 
 
-def _describe_limits(limits: Limits, kp: float) -> str:
+def _describe_limits(limits: StabilityLimits, kp: float) -> str:
     """Say by which change of one number the loop becomes stable."""
     root = math.sqrt(kp)
     cures = []

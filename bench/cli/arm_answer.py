@@ -7,7 +7,14 @@ import math
 from bench.cli.advised import attribution, describe_outside
 from bench.cli.paragraphs import Paragraph, listed
 from bench.cli.screen import counted
-from bench.findings.selection.arm_question import MARGIN, ZETA, ArmAnswer, Body, End, Question
+from bench.findings.selection.arm_question import (
+    MARGIN,
+    ZETA,
+    ArmAnswer,
+    ArmQuestion,
+    Body,
+    StiffnessEnd,
+)
 from bench.findings.selection.felt_inertia import QUICKEST
 
 NEAR_ONE = 0.995
@@ -131,7 +138,7 @@ def _describe_laws(answer: ArmAnswer) -> tuple[str, ...]:
     return (first, _describe_end("Low", answer.light), _describe_end("High", answer.heavy))
 
 
-def _describe_end(words: str, end: End) -> str:
+def _describe_end(words: str, end: StiffnessEnd) -> str:
     body, advice = end.body, end.advice
     uneven = body.at.unevenness
     least, greatest = write((1.0 - uneven) * body.inertia), write((1.0 + uneven) * body.inertia)
@@ -167,7 +174,7 @@ def _describe_evidence(answer: ArmAnswer) -> tuple[str, ...]:
     return tuple(dict.fromkeys(sentences))
 
 
-def _write_command(question: Question, body: Body) -> str:
+def _write_command(question: ArmQuestion, body: Body) -> str:
     """Return the command that asks for the laws of a body."""
     words = [f"--kp {body.kp:.4g}", f"--kv {body.kv:.4g}", f"--rate {1.0 / question.period:g}"]
     if question.delay:

@@ -12,14 +12,14 @@ from click.core import ParameterSource
 from bench.cli import options
 
 if TYPE_CHECKING:
-    from bench.findings.selection.arm_question import Question
+    from bench.findings.selection.arm_question import ArmQuestion
     from bench.findings.selection.tool_chain import ToolChain
 
-STIFFNESS = options.Number(1e-3, 1e6, 50)
+STIFFNESS = options.NumberOption(1e-3, 1e6, 50)
 """[N m/rad]: a millinewton metre a radian moves no arm; a meganewton metre a radian is a wall."""
 
-DAMPING = options.Number(0.0, 1e6, 10)
-TORQUE = options.Number(1e-6, 1e6, 12, infinite="no bound")
+DAMPING = options.NumberOption(0.0, 1e6, 10)
+TORQUE = options.NumberOption(1e-6, 1e6, 12, infinite="no bound")
 
 SOURCES = ("arm", "mjcf", "urdf")
 """The options that name an arm; one of them makes the question one of an arm."""
@@ -131,16 +131,16 @@ def load_chain(words: dict[str, Any]) -> ToolChain:
     return tool_chain.load_urdf(words["urdf"], words["body"])
 
 
-def read_question(words: dict[str, Any]) -> Question:
+def read_question(words: dict[str, Any]) -> ArmQuestion:
     """Return the question that the options ask."""
     import tasks
-    from bench.findings.selection.arm_question import Question
+    from bench.findings.selection.arm_question import ArmQuestion
 
     torque = words["torque"]
     if torque is None:
         # A torque on the tool asks at most itself of every joint: the axes are unit vectors.
         torque = min(tasks.arm(words["arm"]).rated) if words["arm"] else math.inf
-    return Question(
+    return ArmQuestion(
         stiffness=words["stiffness"],
         damping=words["damping"],
         torque=torque,

@@ -58,14 +58,16 @@ def COMMAND(folder: Path | None, criteria: bool, paper: str) -> None:
 
 def _count(verdicts: Sequence[Any]) -> Paragraph:
     """Return how many claims have each word by the present criteria and by the first ones, and which do not hold."""
-    from bench.findings.claims import told
+    from bench.findings.claims import format_tally
     from bench.findings.claims.verdict import Word
 
-    sentences = [f"Of {len(verdicts)} claims {told(verdict.word for verdict in verdicts)}."]
+    sentences = [f"Of {len(verdicts)} claims {format_tally(verdict.word for verdict in verdicts)}."]
     failed = ", ".join(verdict.id for verdict in verdicts if verdict.word == Word.FAILS)
     if failed:
         sentences.append(f"What does not hold: {failed}.")
-    sentences.append(f"By the criteria first written: {told(verdict.first for verdict in verdicts)}.")
+    sentences.append(
+        f"By the criteria first written: {format_tally(verdict.first for verdict in verdicts)}."
+    )
     return Paragraph("In all", tuple(sentences))
 
 

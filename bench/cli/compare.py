@@ -70,28 +70,32 @@ def _compare(
 
     base, head, folders = _resolve_sides(base, head, laws)
     if folders:
-        said = gates.compare_folders(*folders)
+        comparison = gates.compare_folders(*folders)
         differences = rows.compare(*folders)
     else:
         with progress("steps", "checking out") as steps:
-            means = gates.Means(rounds=0 if no_timing else gates.ROUNDS)
-            said = gates.compare_revisions(base, head, laws, steps.now, means=means)
+            functions = gates.GateFunctions(rounds=0 if no_timing else gates.ROUNDS)
+            comparison = gates.compare_revisions(base, head, laws, steps.now, functions=functions)
         folded = " (which: --summary FILE)"
-        differences = [f"{one.verdict}: {one.says}{folded * bool(one.more)}" for one in said.findings]
-    if said.measures:
-        console().print(frame_table(pd.DataFrame(said.measures), "Free body, ideal-rk4"))
+        differences = [
+            f"{one.verdict}: {one.says}{folded * bool(one.more)}" for one in comparison.findings
+        ]
+    if comparison.measures:
+        console().print(frame_table(pd.DataFrame(comparison.measures), "Free body, ideal-rk4"))
         console().print()
     for line in (*differences, *(rows.describe_skipped(folders[0]) if folders else ())):
         console().print(line)
-    for one in said.judgements:
+    for one in comparison.judgements:
         console().print()
         print_judgement(one)
-    if said.times:
-        console().print(frame_table(pd.DataFrame(words.tabulate_times(said.times)), "\nBenchmarks"))
+    if comparison.times:
+        console().print(
+            frame_table(pd.DataFrame(words.tabulate_times(comparison.times)), "\nBenchmarks")
+        )
     if benchmarks:
-        for name, content in zip(("base", "head"), said.files, strict=False):
+        for name, content in zip(("base", "head"), comparison.files, strict=False):
             write_json(benchmarks / f"{name}.json", content)
-    leave(words.write_markdown(said))
+    leave(words.write_markdown(comparison))
     if folders:
         for folder in folders:
             made_on = rounded_on(read_provenance(folder)) or "an unknown machine"
@@ -99,9 +103,9 @@ def _compare(
         agree = f"{len(differences)} differences between {base} and {head}"
         console().print(agree if differences else f"{head} agrees with {base}")
     else:
-        console().print(frame_table(pd.DataFrame(said.gates), "\nGates"))
-        console().print(f"\n{words.write_headline(said)}")
-    if differences if folders else said.regressions:
+        console().print(frame_table(pd.DataFrame(comparison.gates), "\nGates"))
+        console().print(f"\n{words.write_headline(comparison)}")
+    if differences if folders else comparison.regressions:
         raise Exit(1)
 
 

@@ -26,10 +26,12 @@ def COMMAND(law: str, law_limit: float) -> None:
     settling time from uniform starts.
     """
     own = options.find_law(law)
-    from bench.findings.judged import judged  # after the file is known to hold a law, for it takes a second
+    from bench.findings.judge_law import (
+        judge_laws,
+    )  # after the file is known to hold a law, for it takes a second
 
     with console(stderr=True).status("compiling and judging"):
-        judgements = judged((own,), law_limit)
+        judgements = judge_laws((own,), law_limit)
     for one in judgements:
         print_judgement(one)
     if any(one.faults or one.is_lost for one in judgements):
@@ -44,8 +46,8 @@ def print_judgement(one: Judgement) -> None:
     faults = f"{counted(len(one.faults), 'fault')}: {', '.join(one.faults)}." if one.faults else "no fault found."
     screen.print(f"{one.name}: {faults}\n")
     for head, is_fault in (("Faults", True), ("Otherwise" if one.faults else "Findings", False)):
-        some = [each for each in one.said if bool(each.fault) == is_fault]
-        texts = tuple(f"{each.text} [{find_reading(each.subject)}]" for each in some)
+        shown = [sentence for sentence in one.sentences if bool(sentence.fault) == is_fault]
+        texts = tuple(f"{sentence.text} [{find_reading(sentence.subject)}]" for sentence in shown)
         print_paragraphs(Paragraph(head, texts))
     if one.beside:
         title = "\nThe laws of results/reference nearest to it in pull at 90 degrees and median settling time"

@@ -17,7 +17,10 @@ from bench.experiments.tables.schema import RESULTS
 from bench.law.inputs import Gains
 from bench.running.schedulers import check_scheduler
 
-STARTS, SPEED = options.Number(1, 10**10, 10**7, is_whole=True), options.Number(0.0, 100.0, 1)
+STARTS, SPEED = (
+    options.NumberOption(1, 10**10, 10**7, is_whole=True),
+    options.NumberOption(0.0, 100.0, 1),
+)
 ENGINE = click.Choice(["ideal-rk4", "ideal-held"])
 
 

@@ -16,6 +16,7 @@ from bench.experiments.tables.schema import RESULTS
 from bench.law.contender import Contender
 from bench.law.contenders import registry
 from bench.law.contenders.described_law import described
+from bench.law.contenders.law_file import note_former_fields
 from bench.law.kinds import Law
 from bench.running.schedulers import THREADS
 
@@ -48,7 +49,7 @@ class NewFile(click.Path):
 NEW_FILE = NewFile(path_type=Path)
 
 
-class Number(click.ParamType):
+class NumberOption(click.ParamType):
     """A number within bounds. Click's own FloatRange takes NaN, which is neither below nor above any bound.
 
     Args:
@@ -114,22 +115,22 @@ def _short(number: float) -> str:
     return str(number) if isinstance(number, int) else f"{number:g}"
 
 
-KP = Number(1e-6, 1e6, 100)
+KP = NumberOption(1e-6, 1e6, 100)
 """Position gain [1/s^2]. The time scale of a motion is 1/sqrt(kp): below 1e-6 it is more than 1000 s, the longest
 horizon; above 1e6 it is shorter than the usual control period of 1 ms."""
 
-KV = Number(1e-6, 1e6, 20)
+KV = NumberOption(1e-6, 1e6, 20)
 """Velocity gain [1/s]. Bounded alike: 1/kv is the time in which a speed decays."""
 
-PERIOD = Number(SHORTEST_DT_S, LONGEST_DT_S, 0.001)
-HORIZON = Number(SHORTEST_DT_S, 1000.0, 10)
+PERIOD = NumberOption(SHORTEST_DT_S, LONGEST_DT_S, 0.001)
+HORIZON = NumberOption(SHORTEST_DT_S, 1000.0, 10)
 """Simulated seconds; that it has at least one tick is checked with the period (request.check_numbers)."""
 
-SEED = Number(0, 2**32 - 1, 0, is_whole=True)
-COUNT = Number(1, MOST_STARTS, 100, is_whole=True)
-WORKERS = Number(1, MOST_WORKERS, os.cpu_count() or 1, is_whole=True)
+SEED = NumberOption(0, 2**32 - 1, 0, is_whole=True)
+COUNT = NumberOption(1, MOST_STARTS, 100, is_whole=True)
+WORKERS = NumberOption(1, MOST_WORKERS, os.cpu_count() or 1, is_whole=True)
 
-LAW_LIMIT = Number(0.01, 86_400.0, 30)
+LAW_LIMIT = NumberOption(0.01, 86_400.0, 30)
 """Processor time [s] for a unit of a user's law: from a hundredth, in which no process of it starts, to a day."""
 
 Words: TypeAlias = tuple[str, ...]
@@ -210,7 +211,17 @@ def own_laws(files: Files) -> tuple[Law, ...]:
     for name in names:
         if names.count(name) > 1:
             raise click.UsageError(f"two --law files name their regulator '{name}'; give each its own name")
+    for law in own:
+        _note_former_fields(law.origin, law.text)
     return own
+
+
+@functools.cache
+def _note_former_fields(path: str, text: str) -> None:
+    """Print once what a law file should write in place of former names."""
+    note = note_former_fields(text)
+    if note:
+        click.echo(f"--law {path}: {note}", err=True)
 
 
 def find_law(word: str) -> Law:

@@ -17,7 +17,7 @@ from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table
 
-SECONDS = options.Number(0.1, 1e5, 30)
+SECONDS = options.NumberOption(0.1, 1e5, 30)
 """A question that takes a day is not answered; a tenth of a second is no time to answer one."""
 
 

@@ -74,7 +74,7 @@ SENTENCE = 30
 """Longest cell with a space in it that is kept on one line; longer ones wrap, to no less than this width."""
 
 
-class Column(NamedTuple):
+class ScreenColumn(NamedTuple):
     """One column and its cells as text."""
 
     name: str
@@ -82,14 +82,14 @@ class Column(NamedTuple):
     is_number: bool = False
 
 
-class Frame:
+class ScreenTable:
     """A data frame as a table, numbers to the right; no name is broken while the screen has room for it.
 
     Where it is too wide, units go under the names of their columns; what is still too wide goes below in blocks of
     columns, each with the first column again. Nothing is cut off.
     """
 
-    def __init__(self, columns: list[Column], title: str):
+    def __init__(self, columns: list[ScreenColumn], title: str):
         self.columns, self.title = columns, title
 
     def __rich_console__(self, screen: Console, options: ConsoleOptions) -> Iterator[RenderableType]:
@@ -107,26 +107,31 @@ class Frame:
             yield _table(block, is_folded=not _fits(block, screen, options))
 
 
-def word_table(names: Sequence[str], rows: Iterable[Sequence], title: str = "") -> Frame:
+def word_table(names: Sequence[str], rows: Iterable[Sequence], title: str = "") -> ScreenTable:
     """Rows of words, for a console to print; as a data frame of them is, and without pandas."""
     cells = [*zip(*rows, strict=True)] or [()] * len(names)
-    return Frame([Column(name, [*map(str, own)]) for name, own in zip(names, cells, strict=True)], title)
+    return ScreenTable(
+        [ScreenColumn(name, [*map(str, own)]) for name, own in zip(names, cells, strict=True)],
+        title,
+    )
 
 
-def frame_table(frame: Any, title: str = "") -> Frame:
+def frame_table(frame: Any, title: str = "") -> ScreenTable:
     """Return a data frame, for a console to print."""
     columns = []
     for name in frame.columns:
         cells = ["" if value is None or value != value else str(value) for value in frame[name]]
-        columns.append(Column(str(name), cells, frame[name].dtype.kind in "iuf"))
-    return Frame(columns, title)
+        columns.append(ScreenColumn(str(name), cells, frame[name].dtype.kind in "iuf"))
+    return ScreenTable(columns, title)
 
 
-def _spelled_column(column: Column, screen: Console) -> Column:
+def _spelled_column(column: ScreenColumn, screen: Console) -> ScreenColumn:
     return column._replace(name=spelled(column.name, screen), cells=[spelled(cell, screen) for cell in column.cells])
 
 
-def _blocks(columns: list[Column], screen: Console, options: ConsoleOptions) -> list[list[Column]]:
+def _blocks(
+    columns: list[ScreenColumn], screen: Console, options: ConsoleOptions
+) -> list[list[ScreenColumn]]:
     """Return the columns in blocks that fit, the first column in each."""
     if _fits(columns, screen, options):
         return [columns]
@@ -140,11 +145,11 @@ def _blocks(columns: list[Column], screen: Console, options: ConsoleOptions) -> 
     return blocks
 
 
-def _fits(columns: Sequence[Column], screen: Console, options: ConsoleOptions) -> bool:
+def _fits(columns: Sequence[ScreenColumn], screen: Console, options: ConsoleOptions) -> bool:
     return Measurement.get(screen, options.update_width(10**6), _table(columns)).minimum <= options.max_width
 
 
-def _table(columns: Sequence[Column], is_folded: bool = False) -> Table:
+def _table(columns: Sequence[ScreenColumn], is_folded: bool = False) -> Table:
     table = Table(box=None, pad_edge=False)
     for one in columns:
         side: JustifyMethod = "right" if one.is_number else "left"

@@ -174,20 +174,20 @@ def compile_callback(function: Callable, signature: Any) -> Any:
     return numba.cfunc(signature, nopython=True, cache=True)(function)
 
 
-def made_once(make: Callable) -> Callable:
-    """Cache what takes long to make; threads that need the same wait for the first."""
-    made = functools.cache(make)
+def compile_once(make: Callable) -> Callable:
+    """Return a function that compiles once for the same arguments; other threads wait for it."""
+    cached = functools.cache(make)
     locks: dict[tuple, threading.Lock] = {}
 
     @functools.wraps(make)
-    def asked(*words: Any) -> Any:
+    def compile_or_wait(*words: Any) -> Any:
         with locks.setdefault(words, threading.Lock()):
-            return made(*words)
+            return cached(*words)
 
-    return asked
+    return compile_or_wait
 
 
-part = made_once(compile_function)
+part = compile_once(compile_function)
 """part(function, signature): a function of ours that loops call by pointer, compiled or taken from the disk cache."""
 
 

@@ -36,7 +36,7 @@ WIDTH = 25
 scene [m], angle of the scene's joint [rad], largest torque over its rated one. Base frame."""
 
 
-class Numbers(NamedTuple):
+class ContactNumbers(NamedTuple):
     """What a loop needs of an episode besides the models and its limits; see `Specification`, `ContactParameters`.
 
     rated: seven numbers, filled up with ones on fewer joints; is_cut: 1 if motors give no more. moves_s: until when the
@@ -57,7 +57,7 @@ class Numbers(NamedTuple):
     sensor_ticks: int
 
 
-class Ended(NamedTuple):
+class EndedEpisode(NamedTuple):
     """An episode: its outcome (one of OUTCOMES' words), its record (ticks x WIDTH), and MuJoCo's words if it broke.
 
     rested: whether it ended because the hand was at rest.
@@ -114,11 +114,11 @@ USUAL = Conditions()
 
 def numbers(
     controller: ContactController, task: ContactTask, trial: Trial, rated: tuple, conditions: Conditions
-) -> Numbers:
+) -> ContactNumbers:
     """Return the numbers of one trial for one controller."""
     specification = trial.specification
     f_d, m_d = tuple(map(float, specification.desired_wrench[:3])), tuple(map(float, specification.desired_wrench[3:]))
-    return Numbers(
+    return ContactNumbers(
         FORMS.index(controller.form) if controller.form else 0,
         controller.selection(specification),
         tuple(map(float, trial.goal_wxyz)),
@@ -171,13 +171,18 @@ def setpoint(R_d, p_0, numbers, time):
     return Setpoint(R_d, p_d, v, numbers.f_d, numbers.m_d)
 
 
-def made(record: np.ndarray, failure: int, ticks: int, message: str, data: Any) -> Ended:
+def made(record: np.ndarray, failure: int, ticks: int, message: str, data: Any) -> EndedEpisode:
     """Return the episode of a filled record; broken if MuJoCo left out contacts or constraints for want of memory."""
     kinds = (mujoco.mjtWarning.mjWARN_CONTACTFULL, mujoco.mjtWarning.mjWARN_CNSTRFULL)
     left_out = [kind.name for kind in kinds if data.warning[kind].number]
     if failure != BROKEN and left_out:
         failure, message = BROKEN, ", ".join(left_out)
-    return Ended(OUTCOMES[GOING if failure == RESTED else failure], record[:ticks], message, failure == RESTED)
+    return EndedEpisode(
+        OUTCOMES[GOING if failure == RESTED else failure],
+        record[:ticks],
+        message,
+        failure == RESTED,
+    )
 
 
 def sensors_of(model: Any) -> tuple[int, int]:

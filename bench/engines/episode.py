@@ -113,13 +113,13 @@ CRASHED_COMMAND = (math.nan, math.nan, 3e-300)
 
 @kernel
 def has_crashed(u):
-    """Whether it is CRASHED_COMMAND: two numbers that differ from themselves, and one that nobody comes by."""
+    """Return whether u is CRASHED_COMMAND, (NaN, NaN, 3e-300): a user's law raised an error."""
     return u[0] != u[0] and u[1] != u[1] and u[2] == CRASHED_COMMAND[2]
 
 
 @kernel
-def blamed(failure, u):
-    """Return why an episode failed; where the law returned a u that was no command, whether it crashed."""
+def attribute_crash(failure, u):
+    """Return CRASHED in place of SINGULAR if the law raised an error; else the failure itself."""
     if failure == SINGULAR and has_crashed(u):
         return CRASHED
     return failure

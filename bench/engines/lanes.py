@@ -15,7 +15,7 @@ from numba import types
 
 from bench.engines import ideal
 from bench.engines.compiled import FOUR, MATRIX, NUMBERS, compile_function
-from bench.engines.episode import FIRST_METRIC, Sample, blamed, finish
+from bench.engines.episode import FIRST_METRIC, Sample, attribute_crash, finish
 from bench.law.inputs import AT_REST, Goal, Tuning
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, dot, from_quaternion
@@ -115,7 +115,10 @@ def begin(x, n, i, k, start, memory0, numbers):
 def end(x, n, i, row, measured, numbers):
     """Write the row of the episode on lane i."""
     omega, u = three(x, OMEGA, i), three(x, U, i)
-    angle, failure = ideal.angle_between(rotation(x, R, i), rotation(x, R_D, i)), blamed(n[FAILURE, i], u)
+    angle, failure = (
+        ideal.angle_between(rotation(x, R, i), rotation(x, R_D, i)),
+        attribute_crash(n[FAILURE, i], u),
+    )
     finish(row, failure, watch_of(n, i), n[TICK, i], angle, dot(omega, omega), dot(u, u), numbers)
     for column in range(FIRST_METRIC, len(row)):
         row[column] = measured[column, i]

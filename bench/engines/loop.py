@@ -2,7 +2,7 @@
 
 A tick: command, see, advance, sense. What the judge sees is the state at the beginning of each tick. The parts are
 kernels, which the loop holds as a closure: compiled they become one function, plain they are the reference. `body` is
-the world they work in; `state`, `sensed`, `act` and `memory` go from tick to tick.
+the world they work in; `state`, `sensed`, `action` and `memory` go from tick to tick.
 """
 
 import math
@@ -10,8 +10,8 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from bench.engines.curve import keep
-from bench.engines.episode import Sample, blamed, finish
-from bench.engines.typed import borrow
+from bench.engines.episode import Sample, attribute_crash, finish
+from bench.engines.typed import pass_by_reference
 from bench.law.inputs import AT_REST, Goal, Tuning
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, dot
@@ -21,8 +21,11 @@ from tasks.verdict import GOING, check_command, check_state, first_watch, watche
 class Plant(NamedTuple):
     """Functions of what moves.
 
-    reset(body, k, start) -> state; sense(body, state, tick, numbers) -> Sensed; advance(laws, body, state, act, gains,
-    memory, numbers) -> (state, memory); measure(body, state, sensed) -> the angle to the goal [rad].
+    Attributes:
+        reset: reset(body, k, start) -> state.
+        sense: sense(body, state, tick, numbers) -> Sensed.
+        advance: advance(laws, body, state, action, gains, memory, numbers) -> (state, memory).
+        measure: measure(body, state, sensed) -> the angle to the goal [rad].
     """
 
     reset: Callable
@@ -34,8 +37,10 @@ class Plant(NamedTuple):
 class Controller(NamedTuple):
     """Functions of what commands.
 
-    begin(laws, memory0, sensed) -> (memory, act before the first); command(laws, body, sensed, now, gains, memory,
-    numbers) -> (act, memory).
+    Attributes:
+        begin: begin(laws, memory0, sensed) -> (memory, action before the first).
+        command: command(laws, body, sensed, now, gains, memory, numbers) -> (action, memory), where
+            now is an EpisodeTick.
     """
 
     begin: Callable
@@ -53,43 +58,64 @@ class Laws(NamedTuple):
 class Sensed(NamedTuple):
     """What is known of the plant at a tick, base frame.
 
-    turning, speed, rest: squared speeds, as the judge's watch, his limit and his verdict take them. fate: why the plant
-    ends the episode, or GOING. more: what is particular to a plant.
+    Attributes:
+        R: Orientation.
+        omega: Angular velocity [rad/s].
+        goal: Goal of the law.
+        haversine: sin^2(angle/2) of the angle to the goal.
+        watched_speed_squared: Square of the speed by which the judge's watch tells what is slow.
+        limited_speed_squared: Square of the speed that the judge limits.
+        rest_speed_squared: Square of the speed that must be small at the end.
+        ended_by: Why the plant ends the episode, or GOING.
+        extra: What is particular to a plant.
     """
 
     R: Rotation
     omega: tuple
     goal: Goal
     haversine: float
-    turning: float
-    speed: float
-    rest: float
-    fate: int
-    more: Any
+    watched_speed_squared: float
+    limited_speed_squared: float
+    rest_speed_squared: float
+    ended_by: int
+    extra: Any
 
 
-class Act(NamedTuple):
-    """A command: u as it is applied and as the law gave it, its square for the verdict, margin, and why it fails.
+class Action(NamedTuple):
+    """A command.
 
-    more: what is particular to a controller.
+    Attributes:
+        u: The command as it is applied.
+        raw: The command as the law returned it.
+        squared: The square of the command that the verdict takes.
+        margin: Margin of the representation; NaN for a law on R.
+        failure: Why the command ends the episode, or GOING.
+        extra: What is particular to a controller.
     """
 
     u: tuple
-    given: tuple
+    raw: tuple
     squared: float
     margin: float
     failure: int
-    more: Any = ()
+    extra: Any = ()
 
 
-NO_ACT = Act(AT_REST, AT_REST, 0.0, math.nan, GOING)
+NO_ACTION = Action(AT_REST, AT_REST, 0.0, math.nan, GOING)
 
 
-class Now(NamedTuple):
-    """Number of the episode and of the tick; whether the judge has seen the angle in the band, and the body at rest."""
+class EpisodeTick(NamedTuple):
+    """A tick of an episode.
 
-    k: int
-    tick: int
+    Attributes:
+        episode: Number of the episode.
+        number: Number of the tick.
+        entered: Whether the judge has seen the angle in the band.
+        at_rest: Whether the judge has seen the body in the band and slow.
+    """
+
+    episode: int
+    number: int
     entered: bool
     at_rest: bool
 
@@ -97,7 +123,7 @@ class Now(NamedTuple):
 @kernel
 def begin(laws, memory0, sensed):
     """Start with the law's own memory, and no command."""
-    return memory0, NO_ACT
+    return memory0, NO_ACTION
 
 
 @kernel
@@ -105,7 +131,9 @@ def accelerate(laws, body, sensed, now, gains, memory, numbers):
     """Command the angular acceleration that the law says."""
     u, memory, margin = laws.law(sensed.R, sensed.omega, sensed.goal, gains, memory)
     squared = dot(u, u)
-    return Act(u, u, squared, margin, check_command(squared, numbers.command_limit_squared), ()), memory
+    return Action(
+        u, u, squared, margin, check_command(squared, numbers.command_limit_squared), ()
+    ), memory
 
 
 ACCELERATION = Controller(begin, accelerate)
@@ -114,8 +142,8 @@ ACCELERATION = Controller(begin, accelerate)
 class Record(NamedTuple):
     """Functions that fill a row; the last three may be missing.
 
-    see(row, curves, now, body, sensed, act, before, numbers): before the plant moves; before: the u before this one.
-    account(row, body, state, sensed, act, tick, numbers): after it has. close(row, body, state, k, numbers): at the
+    see(row, curves, now, body, sensed, action, before, numbers): before the plant moves; before: the u before this one.
+    account(row, body, state, sensed, action, tick, numbers): after it has. close(row, body, state, k, numbers): at the
     end. restart(row, start, body, sensed, tick): before the judge sees a tick; may begin the row and the band again.
     """
 
@@ -129,11 +157,22 @@ def sampled(observe) -> Record:
     """Return the record of a free body: the metrics' columns, and curves."""
 
     @kernel
-    def see(row, curves, now, body, sensed, act, before, numbers):
-        time, R, hav, omega = now.tick * numbers.dt, sensed.R, sensed.haversine, sensed.omega
-        sample = Sample(time, numbers.dt, R, hav, now.entered, now.at_rest, omega, act.u, before, act.margin)
+    def see(row, curves, now, body, sensed, action, before, numbers):
+        time, R, hav, omega = now.number * numbers.dt, sensed.R, sensed.haversine, sensed.omega
+        sample = Sample(
+            time,
+            numbers.dt,
+            R,
+            hav,
+            now.entered,
+            now.at_rest,
+            omega,
+            action.u,
+            before,
+            action.margin,
+        )
         observe(row, sample)
-        keep(curves, now.k, now.tick, sample)
+        keep(curves, now.episode, now.number, sample)
 
     return Record(see)
 
@@ -145,37 +184,50 @@ def episodes_of(plant: Plant, controller: Controller, record: Record):
     see, account, close, restart = record
 
     def episodes(first, second, third, world, memory0, starts, numbers, rows, curves):
-        laws, body = Laws(first, second, third), borrow(world)
+        laws, body = Laws(first, second, third), pass_by_reference(world)
         gains = Tuning(numbers.kp, numbers.kv, numbers.bound, numbers.delay)
         for k in range(starts.shape[0]):
             start, row = starts[k], rows[k]
             state = reset(body, k, start)
             sensed = sense(body, state, 0, numbers)
-            watch = first_watch(sensed.haversine, start[11], sensed.turning, numbers.slow_squared)
-            memory, act = begin(laws, memory0, sensed)
-            tick, failure = 0, sensed.fate
+            watch = first_watch(
+                sensed.haversine, start[11], sensed.watched_speed_squared, numbers.slow_squared
+            )
+            memory, action = begin(laws, memory0, sensed)
+            tick, failure = 0, sensed.ended_by
             while tick < numbers.ticks and watch.quiet < numbers.hold_ticks and failure == GOING:
-                before, now = act.u, Now(k, tick, watch.entries > 0, watch.rest > 0)
-                act, memory = command(laws, body, sensed, now, gains, memory, numbers)
-                see(row, curves, now, body, sensed, act, before, numbers)
-                failure = act.failure
+                before, now = action.u, EpisodeTick(k, tick, watch.entries > 0, watch.rest > 0)
+                action, memory = command(laws, body, sensed, now, gains, memory, numbers)
+                see(row, curves, now, body, sensed, action, before, numbers)
+                failure = action.failure
                 if failure != GOING:
                     break
-                state, memory = advance(laws, body, state, act, gains, memory, numbers)
+                state, memory = advance(laws, body, state, action, gains, memory, numbers)
                 tick += 1
                 sensed = sense(body, state, tick, numbers)
-                failure = sensed.fate
+                failure = sensed.ended_by
                 if failure == GOING:
-                    failure = check_state(sensed.speed, numbers.speed_limit_squared)
+                    failure = check_state(sensed.limited_speed_squared, numbers.speed_limit_squared)
                 if failure != GOING:
                     break
                 if restart is not None:
                     restart(row, start, body, sensed, tick)
-                watch = watched(watch, tick, sensed.haversine, start[11], sensed.turning, numbers.slow_squared)
+                watched_speed_squared = sensed.watched_speed_squared
+                watch = watched(
+                    watch,
+                    tick,
+                    sensed.haversine,
+                    start[11],
+                    watched_speed_squared,
+                    numbers.slow_squared,
+                )
                 if account is not None:
-                    account(row, body, state, sensed, act, tick, numbers)
-            angle, failure = measure(body, state, sensed), blamed(failure, act.given)
-            finish(row, failure, watch, tick, angle, sensed.rest, act.squared, numbers)
+                    account(row, body, state, sensed, action, tick, numbers)
+            angle = measure(body, state, sensed)
+            failure = attribute_crash(failure, action.raw)
+            finish(
+                row, failure, watch, tick, angle, sensed.rest_speed_squared, action.squared, numbers
+            )
             if close is not None:
                 close(row, body, state, k, numbers)
 

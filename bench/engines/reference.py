@@ -19,10 +19,10 @@ from bench.engines.arm_episode import states as states_of
 from bench.engines.binding import evaluation_of, margin_of, memory_of, observer, parts_for, plant_of
 from bench.engines.curve import blank_curves
 from bench.engines.episode import Metrics, Numbers, Settings, Starts, blank, numbers, start_rows
+from bench.engines.mujoco_view import model_view, plain_view
 from bench.engines.native.trapped import said
-from bench.engines.plants import arm as on_arm
+from bench.engines.plants import arm as arm_plant
 from bench.engines.plants import contact, free_body
-from bench.engines.simulated import model_view, plain_view
 from bench.law.control.resolved_acceleration import assembly
 from tasks.contact_episode import environment as scene_of
 
@@ -50,7 +50,9 @@ def run(
         for start, line, row in zip(starts, begun, rows, strict=True):
             plant = plant_of(contender, task, settings.gains)
             environment = _reset(plant, start, limits, integrator)
-            world = free_body.World(plain_view(environment), int(contender.regulator.in_engine), np.zeros((1, 1)))
+            world = free_body.FreeBodyWorld(
+                plain_view(environment), int(contender.regulator.in_engine), np.zeros((1, 1))
+            )
             _run(loop, laws, world, contender, line, limits, row)
     return rows
 
@@ -62,7 +64,7 @@ def run_arm(
     """Return rows of an arm, one a start; see `arm_episode` for the columns."""
     rows, begun, limits, of_arm = blank_arm(len(starts), metrics), start_rows(starts), numbers(settings), tasks.arm(arm)
     laws = assembly(parts_for(contender)), contender.inverse.resolve, margin_of(contender)
-    loop, one = on_arm.loop_of(observer(metrics)), tasks.variation(variation)
+    loop, one = arm_plant.loop_of(observer(metrics)), tasks.variation(variation)
     believes = one.believed or variation
     with np.errstate(all="ignore"):
         for start, line, row in zip(starts, begun, rows, strict=True):
@@ -77,8 +79,8 @@ def run_arm(
                 tasks.variation(believes).apply(model, of_arm.rated)
                 believed = model_view(model, mujoco.MjData(model))
             states, hinges = states_of([start], of_arm.joints), joints(of_arm, believes)
-            work = on_arm.work(of_arm.joints, one.late_ticks(limits.dt), shape.change)
-            world = on_arm.World(sim, states, believed, work, shape, hinges)
+            work = arm_plant.work(of_arm.joints, one.late_ticks(limits.dt), shape.change)
+            world = arm_plant.ArmWorld(sim, states, believed, work, shape, hinges)
             _run(loop, laws, world, contender, line, limits, row)
     return rows
 
@@ -110,7 +112,9 @@ def run_contact(
         touch = type(conditions.touch)(*map(np.float64, conditions.touch))
         asked, push = np.zeros(3, np.int64), np.zeros(6)
         noise = conditions.sensor.draw_noise(task.horizon_s, conditions.dt_s)
-        world = contact.World(sim, arm.joints, push, gap, turned, 0, 0, asked, work, shape, touch, record, noise)
+        world = contact.ContactWorld(
+            sim, arm.joints, push, gap, turned, 0, 0, asked, work, shape, touch, record, noise
+        )
         limits = contact_episode.limits(task, conditions)
         _run(contact.loop(), (controller.assemble,), world, None, np.zeros(12), limits, row)
     return row, said(), data

@@ -11,7 +11,7 @@ import numpy as np
 
 from bench.engines import compiled, lanes
 from bench.engines.binding import evaluation_of, memory_of, observer, plant_of
-from bench.engines.compiled import compile_function, compile_loop, made_once, own_law
+from bench.engines.compiled import compile_function, compile_loop, compile_once, own_law
 from bench.engines.convergence import Level, at_level, converged
 from bench.engines.curve import Curves, blank_curves
 from bench.engines.episode import Metrics, Numbers, Settings, Starts, blank, numbers, start_rows
@@ -27,21 +27,26 @@ WORTH_LANES = 100_000
 1,000 ticks."""
 
 LOOPS = {
-    "native": ("free_body", "loop_of", (compiled.EVALUATE,), "World"),
-    "perturbed": ("perturbed", "loop_of", (compiled.EVALUATE,), "World"),
-    "stream": ("quaternion", "streamed", (compiled.EVALUATE,), "Stream"),
+    "native": ("free_body", "loop_of", (compiled.EVALUATE,), "FreeBodyWorld"),
+    "perturbed": ("perturbed", "loop_of", (compiled.EVALUATE,), "PerturbedWorld"),
+    "stream": ("quaternion", "streamed", (compiled.EVALUATE,), "SentGoals"),
     "state": ("quaternion", "with_state", (compiled.STATEFUL, compiled.BEGIN_STATE), "Disturbance"),
     "velocity": ("velocity", "of_body", (compiled.EVALUATE, compiled.LIMIT), "Pace"),
-    "velocity-arm": ("velocity", "of_arm", (compiled.EVALUATE, compiled.LIMIT, compiled.RESOLVE), "ArmWorld"),
-    "arm": ("arm", "loop_of", (compiled.ASSEMBLE, compiled.RESOLVE, compiled.MARGIN), "World"),
-    "impedance": ("impedance", "of_arm", (compiled.EVALUATE, compiled.DESIGN), "World"),
-    "contact": ("contact", "loop", (compiled.TOUCH,), "World"),
+    "velocity-arm": (
+        "velocity",
+        "of_arm",
+        (compiled.EVALUATE, compiled.LIMIT, compiled.RESOLVE),
+        "VelocityWorld",
+    ),
+    "arm": ("arm", "loop_of", (compiled.ASSEMBLE, compiled.RESOLVE, compiled.MARGIN), "ArmWorld"),
+    "impedance": ("impedance", "of_arm", (compiled.EVALUATE, compiled.DESIGN), "ImpedanceWorld"),
+    "contact": ("contact", "loop", (compiled.TOUCH,), "ContactWorld"),
 }
 """Beside the ideal ones: the file in `plants`, what makes the loop (`loop_of` of the metrics), the signatures of the
 functions that it calls, and its world."""
 
 
-@made_once
+@compile_once
 def compiled_loop(kind: str, metrics: tuple = ()) -> Callable:
     """Return a loop, for all laws, compiled or taken from the disk cache."""
     if kind in ideal.STEPS:
@@ -83,15 +88,17 @@ def run(
         return on_ideal(engine, contender, begun, settings, metrics, total, curves, converge)
     import mujoco
 
+    from bench.engines.mujoco_view import compiled_view
     from bench.engines.native.libmujoco import model_of, skip_constraints
     from bench.engines.plants import free_body
-    from bench.engines.simulated import compiled_view
 
     plant = plant_of(contender, task, settings.gains)
     model = skip_constraints(model_of(plant.xml(settings.dt_s), integrator))
     data = mujoco.MjData(model)
     states = np.array([[*qpos, *qvel] for qpos, qvel in map(plant.state, starts)], dtype=float)
-    world = free_body.World(compiled_view(model, data), int(contender.regulator.in_engine), states)
+    world = free_body.FreeBodyWorld(
+        compiled_view(model, data), int(contender.regulator.in_engine), states
+    )
     law, rows = (evaluation(contender),), blank(len(starts), metrics)
     loop = compiled_loop(engine, tuple(metrics))
     return simulate(loop, law, world, memory_of(contender), begun, numbers(settings), rows, curves)
@@ -163,14 +170,14 @@ def prepare(engine: str, contender: Contender, metrics: Metrics, total: int = 0)
         evaluation(contender)
 
 
-@made_once
+@compile_once
 def loop_in_lanes(engine: str, contender: Contender, metrics: tuple) -> Callable:
     """Return the loop of an ideal plant with a law compiled into it; see `evaluation`."""
     with own_law(contender.regulator.origin) as cache:
         return lanes.episodes_of(engine, evaluation_of(contender), observer(metrics), len(metrics), cache)
 
 
-@made_once
+@compile_once
 def evaluation(contender: Contender) -> Callable:
     """Compile a contender for the loops, or take it from the disk cache; a user's law is compiled every time."""
     with own_law(contender.regulator.origin) as cache:

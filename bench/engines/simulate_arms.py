@@ -11,15 +11,15 @@ import tasks
 from bench.engines import compiled, reference
 from bench.engines.arm_episode import blank_arm, controls, joints, states
 from bench.engines.binding import margin_of, memory_of, parts_for
-from bench.engines.compiled import compile_function, made_once, own_law, part
+from bench.engines.compiled import compile_function, compile_once, own_law, part
 from bench.engines.curve import Curves
 from bench.engines.episode import Metrics, Settings, Starts, blank, numbers, start_rows
+from bench.engines.mujoco_view import compiled_view
 from bench.engines.native.libmujoco import model_of, skip_constraints
-from bench.engines.plants import arm as on_arm
+from bench.engines.plants import arm as arm_plant
 from bench.engines.plants import impedance, velocity
 from bench.engines.plants.impedance import Springs
 from bench.engines.simulate import compiled_loop, evaluation, simulate
-from bench.engines.simulated import compiled_view
 from bench.law.contender import Contender
 from bench.law.control.resolved_acceleration import assembly
 from bench.law.kinds import Impedance
@@ -42,27 +42,27 @@ def run_arm(
     """
     if engine == "reference":
         return reference.run_arm(contender, task, arm, starts, settings, metrics, integrator, variation)
-    kept, world = arm_world(contender, task, arm, starts, settings, integrator, variation)
+    owners, world = arm_world(contender, task, arm, starts, settings, integrator, variation)
     rows, limits, loop = blank_arm(len(starts), metrics), numbers(settings), compiled_loop("arm", tuple(metrics))
     simulate(loop, pointers(contender), world, memory_of(contender), start_rows(starts), limits, rows, curves)
-    del kept  # what the addresses of the world point into, until here
+    del owners  # it kept the models and data alive whose addresses the compiled code read
     return rows
 
 
 def arm_world(
     contender: Contender, task: str, arm: str, starts: Starts, settings: Settings, integrator: str,
     variation: str = IDEAL_MOTORS,
-) -> tuple[list, on_arm.World]:  # fmt: skip
+) -> tuple[list, arm_plant.ArmWorld]:  # fmt: skip
     """Return the models of one arm, the plant and the controller's if it is another one, and the world of the loop."""
     one, plant_of = tasks.arm(arm), tasks.variation(variation)
     believed = plant_of.believed
     plant = _simulation(task, one, settings.dt_s, integrator, variation)
     shape = controls(contender, bool(believed), settings.torque_limit, plant[0], plant_of.lag_s, one.torque_rate)
     own = _simulation(task, one, settings.dt_s, integrator, believed or variation) if shape.has_own_model else plant
-    work = on_arm.work(one.joints, plant_of.late_ticks(settings.dt_s), shape.change)
+    work = arm_plant.work(one.joints, plant_of.late_ticks(settings.dt_s), shape.change)
     hinges = joints(one, believed or variation)
     views = compiled_view(*plant), states(starts, one.joints), compiled_view(*own)
-    return [plant, own], on_arm.World(*views, work, shape, hinges)
+    return [plant, own], arm_plant.ArmWorld(*views, work, shape, hinges)
 
 
 def _simulation(task: str, arm: Arm, dt_s: float, integrator: str = "euler", variation: str = IDEAL_MOTORS) -> tuple:
@@ -90,7 +90,7 @@ def _resolve(contender: Contender) -> Callable:
     return part(contender.inverse.resolve, compiled.RESOLVE)
 
 
-@made_once
+@compile_once
 def _assemble(contender: Contender) -> Callable:
     with own_law(contender.regulator.origin) as cache:
         return compile_function(assembly(parts_for(contender)), compiled.ASSEMBLE, cache)
@@ -115,9 +115,9 @@ def run_velocity(
     if not arm:
         return simulate(compiled_loop("velocity"), functions, pace, *given)
     n, (model, data) = tasks.arm(arm).joints, _simulation(ARM_TASK, tasks.arm(arm), settings.dt_s)
-    still, work = states([one._replace(qdot=(0.0,) * n) for one in starts], n), on_arm.work(n)
+    still, work = states([one._replace(qdot=(0.0,) * n) for one in starts], n), arm_plant.work(n)
     work.D[:] = np.eye(n)
-    world = velocity.ArmWorld(compiled_view(model, data), still, work, pace)
+    world = velocity.VelocityWorld(compiled_view(model, data), still, work, pace)
     return simulate(compiled_loop("velocity-arm"), (*functions, _resolve(contender)), world, *given)
 
 
@@ -131,10 +131,10 @@ def run_impedance(
     rated ones may come to. variation: of plant and model alike.
     """
     limits, one = numbers(settings._replace(command_limit=settings.torque_limit)), tasks.arm(arm)
-    kept = [_simulation(ARM_TASK, one, settings.dt_s, variation=variation) for _ in range(2)]
-    plant, still = (compiled_view(*sim) for sim in kept)
+    owners = [_simulation(ARM_TASK, one, settings.dt_s, variation=variation) for _ in range(2)]
+    plant, still = (compiled_view(*sim) for sim in owners)
     world = impedance.world(plant, still, states(starts, one.joints), springs, one.rated)
     rows, laws = blank(len(starts), more=impedance.COLUMNS), (evaluation(law), part(damping.design, compiled.DESIGN))
     simulate(compiled_loop("impedance"), laws, world, memory_of(law), start_rows(starts), limits, rows)
-    del kept
+    del owners  # it kept the models and data alive whose addresses the compiled code read
     return rows, world.ends

@@ -8,7 +8,7 @@ import numpy as np
 
 from bench.engines import episode
 from bench.engines.binding import memory_of
-from bench.engines.compiled import BEGIN_STATE, STATEFUL, made_once, part
+from bench.engines.compiled import BEGIN_STATE, STATEFUL, compile_once, part
 from bench.engines.episode import Metrics, Numbers, Settings, Starts, blank, numbers, start_rows
 from bench.engines.plants import perturbed, quaternion
 from bench.engines.simulate import compiled_loop, evaluation, simulate
@@ -71,7 +71,10 @@ def run_stream(
     """
     start, rows = np.zeros((1, episode.START_WIDTH)), np.zeros((1, quaternion.PATH + 1))
     start[0, 0:4], start[0, 7:11] = truth[0], goals[0]
-    stream, limits = quaternion.Stream(goals, truth, int(is_raw)), _unlimited(gains, dt, len(goals))
+    stream, limits = (
+        quaternion.SentGoals(goals, truth, int(is_raw)),
+        _unlimited(gains, dt, len(goals)),
+    )
     simulate(compiled_loop("stream"), (evaluation(contender),), stream, memory_of(contender), start, limits, rows)
     peak, off, way = rows[0, quaternion.PEAK :].tolist()
     return peak, off, way
@@ -106,7 +109,7 @@ def nothing(R: Any) -> tuple:
     return NO_MEMORY
 
 
-@made_once
+@compile_once
 def without_state(one: Any) -> Stateful:
     """Return a law without memory as one with a state, which stays at zero."""
     law = one.law

@@ -8,14 +8,14 @@ import numpy as np
 
 from bench.base.errors import BadNumber, UnknownWord
 from bench.engines import contact_episode, reference
-from bench.engines.compiled import TOUCH, compile_function, made_once, register
-from bench.engines.contact_episode import BROKEN, TIME, USUAL, Conditions, Ended, made
+from bench.engines.compiled import TOUCH, compile_function, compile_once, register
+from bench.engines.contact_episode import BROKEN, TIME, USUAL, Conditions, EndedEpisode, made
 from bench.engines.episode import FAILURE_TICK, FIRST_METRIC, NEVER, OUTCOME, START_WIDTH
+from bench.engines.mujoco_view import compiled_view
 from bench.engines.native import trapped
 from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS, model_of, skip_constraints
 from bench.engines.plants import contact as in_contact
 from bench.engines.simulate import compiled_loop, simulate
-from bench.engines.simulated import compiled_view
 from bench.law.control.contact_controller import ContactController, check_constants
 from bench.law.inputs import NO_MEMORY
 from tasks.arm_model import Arm
@@ -30,8 +30,8 @@ ENGINES = ("native", "reference")
 def run_contact(
     engine: str, controller: ContactController, task: ContactTask, arm: Arm, trials: Iterable[Trial],
     conditions: Conditions = USUAL, contact: ContactModel = STANDARD,
-) -> Iterator[Ended]:  # fmt: skip
-    """Yield one `Ended` a trial, in order, by the engine "native", or "reference" for dm_control's own loop.
+) -> Iterator[EndedEpisode]:  # fmt: skip
+    """Yield one `EndedEpisode` a trial, in order, by the engine "native", or "reference" for dm_control's own loop.
 
     Errors, before the first episode begins:
         UnknownWord: the engine or the integrator. BadNumber: a constant of the controller, or the control period.
@@ -69,7 +69,7 @@ def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: Con
 
 def _episode(
     scene: Any, controller: ContactController, task: ContactTask, arm: Arm, trial: Trial, conditions: Any, contact: Any
-) -> Ended:
+) -> EndedEpisode:
     shape = contact_episode.numbers(controller, task, trial, arm.rated, conditions)
     limits = contact_episode.limits(task, conditions)
     record = np.full((limits.ticks, contact_episode.WIDTH), np.nan)
@@ -82,7 +82,9 @@ def _episode(
         parts["work"].legs[: len(trial.pushes)] = trial.pushes
         touch, start = conditions.touch, np.zeros((1, START_WIDTH))
         noise = conditions.sensor.draw_noise(task.horizon_s, conditions.dt_s)
-        world = in_contact.World(**parts, shape=shape, touch=touch, record=record, noise=noise)
+        world = in_contact.ContactWorld(
+            **parts, shape=shape, touch=touch, record=record, noise=noise
+        )
         simulate(_loop(), (_pointer(controller._replace(form="")),), world, NO_MEMORY, start, limits, row[None])
     failure = GOING if row[FAILURE_TICK] == NEVER else int(row[OUTCOME])
     if failure == BROKEN:
@@ -101,7 +103,7 @@ def prepare_contact(controller: ContactController) -> None:
     _pointer(controller._replace(form=""))
 
 
-@made_once
+@compile_once
 def _pointer(law: ContactController) -> Callable:
     """Return the rows of a controller, whatever its form, compiled or taken from the disk cache."""
     return compile_function(law.assemble, TOUCH)

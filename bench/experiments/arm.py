@@ -153,9 +153,10 @@ def _check_combinations(request: Request) -> None:
 
 
 def rows(request: Request, unit: Unit) -> pd.DataFrame:
-    """Return the rows of a unit, each doubtful one judged beside its start too."""
-    starts, again = episodes.starts_of(request, unit), functools.partial(episodes.rows_from, request, unit)
-    return rerun_nudged(again(starts), starts, again)
+    """Return the rows of a unit; each doubtful episode is also run from a start 1e-12 rad away."""
+    starts = episodes.starts_of(request, unit)
+    simulate = functools.partial(episodes.rows_from, request, unit)
+    return rerun_nudged(simulate(starts), starts, simulate)
 
 
 EXPERIMENT = Experiment.of(

@@ -19,7 +19,7 @@ import numpy as np
 from bench.experiments.episodes import prepare
 from bench.experiments.exchanged import find_order
 from bench.experiments.experiment import OF_LAWS, Experiment, Unit, user_laws_last
-from bench.experiments.field import ZERO, Field, about, size
+from bench.experiments.field import ZERO, CommandField, about, size
 from bench.experiments.request import Request
 from bench.experiments.traces import laws
 from bench.law.contender import Contender
@@ -51,7 +51,7 @@ LEFT, POLE, BESIDE_RAD = 1e-3, 1e3, 1e-6
 on a jump is one to infinity, of which 1e6 is seen: 8 is the most of other laws. How near to a place a jump is at it."""
 
 
-class Finding(NamedTuple):
+class FieldFinding(NamedTuple):
     """One row: what was found of what, its size, in how many states of how many, and the state that shows it."""
 
     finding: str
@@ -83,23 +83,23 @@ def rows(request: Request, unit: Unit) -> list[dict]:
     return found
 
 
-def findings(one: Contender, gains: Gains) -> Iterator[Finding]:
+def findings(one: Contender, gains: Gains) -> Iterator[FieldFinding]:
     """Yield all findings of a law."""
-    field = Field(one, gains)
+    field = CommandField(one, gains)
     with np.errstate(all="ignore"):
         yield from _near_goal(field)
         yield from _half_turns(field)
         yield from _along_geodesics(field)
 
 
-def _near_goal(field: Field) -> Iterator[Finding]:
+def _near_goal(field: CommandField) -> Iterator[FieldFinding]:
     """Look whether the law rests at the goal, and at its stiffness and damping there."""
     base, gains = np.eye(3), field.gains
     at = np.array([field(np.array([goal]), goal)[0] for goal in GOALS])
     worst = int(np.argmax(size(at)))
     largest, goal = size(at)[worst], GOALS[worst]
     what = "rests" if largest <= ZERO else "pushes" if np.isfinite(largest) else "no-number"
-    yield Finding("goal", what, largest, quat=goal, goal=goal, u=at[worst] * gains.kp)
+    yield FieldFinding("goal", what, largest, quat=goal, goal=goal, u=at[worst] * gains.kp)
     K, D = [], []
     for goal in GOALS:
         sides = ([multiply(tuple(about(axis, sign * TURN_RAD)), goal) for axis in base] for sign in (1.0, -1.0))
@@ -115,7 +115,7 @@ def _near_goal(field: Field) -> Iterator[Finding]:
     yield _compared("damping", np.array(D), (1.0, 1.0, 1.0))
 
 
-def _compared(finding: str, matrices: np.ndarray, declared: tuple) -> Finding:
+def _compared(finding: str, matrices: np.ndarray, declared: tuple) -> FieldFinding:
     """Compare the matrices found at GOALS with what they should be, R_d diag(declared) R_d^T."""
     turns = np.array([from_quaternion(goal) for goal in GOALS]).transpose(0, 2, 1)
     wanted = turns @ np.diag(declared) @ turns.transpose(0, 2, 1)
@@ -124,9 +124,9 @@ def _compared(finding: str, matrices: np.ndarray, declared: tuple) -> Finding:
     most, _, least = np.linalg.svd(np.nan_to_num(matrices[worst], posinf=0.0, neginf=0.0), compute_uv=False)
     shown = {"least": least, "most": most, "goal": GOALS[worst]}
     if off[worst] > BOUNDED:
-        return Finding(finding, "unbounded", **shown)
+        return FieldFinding(finding, "unbounded", **shown)
     if np.abs(matrices).max() < SAME:
-        return Finding(finding, "none", 0.0, **shown)
+        return FieldFinding(finding, "none", 0.0, **shown)
     for word, turned in {"": np.eye(3), "body-frame": turns.transpose(0, 2, 1), "turned-by-goal": turns}.items():
         expected = turned @ wanted
         share = float(np.sum(expected * matrices) / np.sum(expected * expected))
@@ -134,13 +134,15 @@ def _compared(finding: str, matrices: np.ndarray, declared: tuple) -> Finding:
             continue
         if word:  # at I all frames are one
             called = "row-first" if word == "body-frame" and share < 0.0 else word
-            return Finding(finding, called, share, **shown | {"goal": GOALS[-1]})
+            return FieldFinding(finding, called, share, **shown | {"goal": GOALS[-1]})
         near = (known for known, of in {"as-set": 1.0, "half": 0.5}.items() if abs(share - of) < 0.01)
-        return Finding(finding, next(near, "scaled" if share > 0.0 else "wrong-sign"), share, **shown)
-    return Finding(finding, "uneven" if off[0] > SAME else "uneven-elsewhere", **shown)
+        return FieldFinding(
+            finding, next(near, "scaled" if share > 0.0 else "wrong-sign"), share, **shown
+        )
+    return FieldFinding(finding, "uneven" if off[0] > SAME else "uneven-elsewhere", **shown)
 
 
-def _half_turns(field: Field) -> Iterator[Finding]:
+def _half_turns(field: CommandField) -> Iterator[FieldFinding]:
     """Look for rotations of 180° with no command, or no number, about axes of small whole numbers and spread ones."""
     whole = [v for v in itertools.product(range(-3, 4), repeat=3) if v > (0, 0, 0) and math.gcd(*v) == 1]
     k = np.concatenate((np.array(whole) / np.linalg.norm(whole, axis=1)[:, None], axes(AXES - len(whole))))
@@ -150,13 +152,20 @@ def _half_turns(field: Field) -> Iterator[Finding]:
         yield _largest(field, finding, _set_of(k, is_one), sizes, is_one, quats)
 
 
-def _largest(field: Field, name: str, what: str, sizes: np.ndarray, is_one: np.ndarray, quats: np.ndarray) -> Finding:
+def _largest(
+    field: CommandField,
+    name: str,
+    what: str,
+    sizes: np.ndarray,
+    is_one: np.ndarray,
+    quats: np.ndarray,
+) -> FieldFinding:
     """Return the finding of some states; the one where its size is largest shows it."""
     if not is_one.any():
-        return Finding(name, "none", of=len(quats))
+        return FieldFinding(name, "none", of=len(quats))
     worst = int(np.argmax(np.where(is_one, sizes, -np.inf)))
     shown = {"quat": quats[worst], "u": field(quats[[worst]])[0] * field.gains.kp}
-    return Finding(name, what, sizes[worst], found=int(is_one.sum()), of=len(quats), **shown)
+    return FieldFinding(name, what, sizes[worst], found=int(is_one.sum()), of=len(quats), **shown)
 
 
 def _set_of(directions: np.ndarray, is_one: np.ndarray) -> str:
@@ -170,7 +179,7 @@ def _set_of(directions: np.ndarray, is_one: np.ndarray) -> str:
     return "some"
 
 
-def _along_geodesics(field: Field) -> Iterator[Finding]:
+def _along_geodesics(field: CommandField) -> Iterator[FieldFinding]:
     """Look along closed geodesics through the goal where it pulls away and jumps, and how hard it pulls at PULLED."""
     k, step = axes(GEODESICS), 2.0 * math.pi / SAMPLES
     axis, low = np.repeat(k, SAMPLES, axis=0), np.tile((np.arange(SAMPLES) + 0.5) * step, GEODESICS)
@@ -199,7 +208,13 @@ def _along_geodesics(field: Field) -> Iterator[Finding]:
     pulls = np.array([np.sum(field(about(k, angle)) * -k, axis=1) for angle in PULLED])
     # theta is 2 atan2(|eps|, eta), or atan2(sin, cos): with exchanged arguments it is one of these less theta
     is_swapped = any(np.abs(pulls - (wrong - PULLED)[:, None]).max() < 0.01 for wrong in (math.pi, 0.5 * math.pi))
-    yield Finding("pull", "swapped" if is_swapped else "some", pulls[-1].mean(), pulls[-1].min(), pulls[-1].max())
+    yield FieldFinding(
+        "pull",
+        "swapped" if is_swapped else "some",
+        pulls[-1].mean(),
+        pulls[-1].min(),
+        pulls[-1].max(),
+    )
 
 
 FINDINGS = (

@@ -28,7 +28,7 @@ from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Trial, can_do, refuse
 
 if TYPE_CHECKING:
-    from bench.engines.contact_episode import Conditions, Ended
+    from bench.engines.contact_episode import Conditions, EndedEpisode
 
 DONE, *_ = WORST_LAST = ("done", "singular", "saturated", "diverged", "broken")
 """Outcomes of `engines.contact_episode`; a pose has the worst of its trials'."""
@@ -182,7 +182,7 @@ def frame(
     arm: Arm,
     poses: tuple[tuple[Trial, ...], ...],
     conditions: Conditions,
-    simulate: Callable[..., Iterator[Ended]] | None = None,
+    simulate: Callable[..., Iterator[EndedEpisode]] | None = None,
 ) -> pd.DataFrame:
     """Return one row a pose; a pose is the trials that share it. `simulate` is `run_contact` unless it is given."""
     from bench.engines.simulate_contact import run_contact as run
@@ -195,7 +195,11 @@ def frame(
 
 
 def _row(
-    task: ContactTask, arm: Arm, controller: ContactController, ended: list[tuple[Trial, Ended]], conditions: Conditions
+    task: ContactTask,
+    arm: Arm,
+    controller: ContactController,
+    ended: list[tuple[Trial, EndedEpisode]],
+    conditions: Conditions,
 ) -> dict:
     first = ended[0][0]
     outcome = max((one.outcome for _, one in ended), key=WORST_LAST.index)

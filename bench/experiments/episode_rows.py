@@ -15,7 +15,7 @@ from bench.engines.metrics.registry import known_metrics, metrics_of
 from bench.experiments.columns import of_metrics, read_table
 from bench.experiments.experiment import Unit
 from bench.experiments.request import Request
-from bench.experiments.rounding import CHANGE, OUTCOME_NUDGED
+from bench.experiments.rounding import OUTCOME_NUDGED, ROUNDING_CHANGE
 from bench.law.contenders.representations.zyx_euler import chart
 from bench.law.so3 import from_quaternion
 from tasks.base import Start
@@ -68,7 +68,7 @@ def frame(request: Request, unit: Unit, starts: list[Start], numbers: np.ndarray
             "cond_jacobian_max": seen,
             "cause": [cause(*near) if unit.arm else "" for near in zip(ran["outcome"], margins, seen, strict=True)],
             OUTCOME_NUDGED: "",
-            CHANGE: np.nan,
+            ROUNDING_CHANGE: np.nan,
         }
     )
 

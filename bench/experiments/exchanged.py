@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from bench.experiments.field import Field, about
+from bench.experiments.field import CommandField, about
 from tasks.haar import axes
 
 TURNS, SAME = 60, 1e-6
@@ -32,7 +32,7 @@ FORMS: tuple[Callable[[np.ndarray], np.ndarray], ...] = (
 modified Rodrigues parameters, and the rotation vector."""
 
 
-def find_order(field: Field) -> str:
+def find_order(field: CommandField) -> str:
     """Return the components that a law takes for w x y z, as "xyzw"; empty if no order explains its commands."""
     turns = _spread_turns()
     commands = field(turns * CONJUGATE)  # R from which the rotation to the goal I is `turns`

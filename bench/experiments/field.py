@@ -15,7 +15,7 @@ ZERO = 1e-9
 """|u|/kp below which a command counts as zero: it moves a body 2e-5 rad in the longest horizon, 20 s."""
 
 
-class Field:
+class CommandField:
     """u(R, omega) of a law with its initial memory, by the compiled loop: its first sample of an episode."""
 
     def __init__(self, one: Contender, gains: Gains):

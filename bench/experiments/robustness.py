@@ -74,7 +74,7 @@ def _may_differ(one: Contender, axis: str, section: Mapping[str, Any], request: 
 def _takes_part(one: Contender, section: Mapping[str, Any], request: Request) -> bool:
     """Tell whether it is a law on R or on the paper's coordinates, a user's, or named; and no actuator of MuJoCo's."""
     is_wanted = bool(one.regulator.origin) or request.names_laws
-    is_usual = not one.is_elsewhere or section["others"] is None or one.name in section["others"]
+    is_usual = not one.uses_nonpaper_coordinates or section["others"] is None or one.name in section["others"]
     return (is_wanted or is_usual) and not one.regulator.in_engine
 
 

@@ -1,4 +1,4 @@
-"""What rounding decides of an arm's episodes: each doubtful one is judged again from beside its start.
+"""What rounding decides of an arm's episodes: each doubtful one is run again from 1e-12 rad away.
 
 An arm that passes a singularity, or asks far more of its motors than they are rated for, multiplies the last bit of a
 library's sine until it is an outcome. Such an episode is repeated from q + NUDGE in every joint, further than any two
@@ -30,31 +30,34 @@ TORQUE_RATIO = 100.0
 ZERO = 1e-9
 """What is smaller in both does not count as a change: it is rounding itself."""
 
-OUTCOME_NUDGED, CHANGE = "outcome_beside", "rounding_change"
+OUTCOME_NUDGED, ROUNDING_CHANGE = "outcome_beside", "rounding_change"
+"""Columns of the tables: results that are kept have these names."""
 
 
 def rerun_nudged(
-    rows: pd.DataFrame, starts: Sequence[Start], again: Callable[[list[Start]], pd.DataFrame]
+    rows: pd.DataFrame, starts: Sequence[Start], simulate: Callable[[list[Start]], pd.DataFrame]
 ) -> pd.DataFrame:
-    """Return the rows of episodes with two more columns: what a run from a start beside each doubtful one says.
-
-    OUTCOME_NUDGED is the other outcome beside the start; it is empty if there is none, or the episode is not doubtful.
-    CHANGE is the largest relative change of any number of the row; it is null if the episode is not doubtful.
+    """Run each doubtful episode again from a start NUDGE away, and add what changed to its row.
 
     Args:
-        rows: A row a start.
-        starts: The starts of the rows.
-        again: again(starts) -> the rows of other starts, simulated in the same way.
+        rows: Rows of episodes, one a start.
+        starts: Their starts.
+        simulate: Function that returns the rows of other starts, simulated in the same way.
+
+    Returns:
+        The rows with two columns more. OUTCOME_NUDGED is the outcome from the nudged start if it is
+        another one; it is empty if it is not, or if the episode is not doubtful. ROUNDING_CHANGE is
+        the largest relative change of any number of the row; null if the episode is not doubtful.
     """
     doubtful = np.flatnonzero((rows["cond_jacobian_max"] > CONDITION) | (rows["peak_torque_ratio"] > TORQUE_RATIO))
     other, change = np.full(len(rows), "", object), np.full(len(rows), np.nan)
     if len(doubtful):
         here = rows.iloc[doubtful].reset_index(drop=True)
-        beside = again([nudged(starts[i], NUDGE) for i in doubtful.tolist()])
-        differs = (beside["outcome"] != here["outcome"]).to_numpy()
-        other[doubtful[differs]] = beside["outcome"][differs]
-        change[doubtful] = _change(here, beside)
-    return rows.assign(**{OUTCOME_NUDGED: other, CHANGE: change})
+        there = simulate([nudged(starts[i], NUDGE) for i in doubtful.tolist()])
+        differs = (there["outcome"] != here["outcome"]).to_numpy()
+        other[doubtful[differs]] = there["outcome"][differs]
+        change[doubtful] = _change(here, there)
+    return rows.assign(**{OUTCOME_NUDGED: other, ROUNDING_CHANGE: change})
 
 
 def nudged(start: Start, by: float) -> Start:

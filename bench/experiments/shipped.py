@@ -20,7 +20,7 @@ from bench.engines.episode import OUTCOME, SETTLING_TICK, start_rows
 from bench.engines.episode import numbers as numbers_of
 from bench.engines.metrics.registry import metrics_of
 from bench.experiments.experiment import Experiment, Unit
-from bench.experiments.field import ENGINE, ZERO, Field, about, size
+from bench.experiments.field import ENGINE, ZERO, CommandField, about, size
 from bench.experiments.request import Request
 from bench.experiments.suites import BEST, LONG
 from bench.law.contender import Contender
@@ -76,7 +76,7 @@ def compare(one: AsShipped, laws: Iterable[str], request: Request, horizon_s: fl
 def row(one: AsShipped, law: str, contender: Contender, request: Request, horizon_s: float) -> dict:
     """Return a law's numbers at the gains of a controller."""
     gains = one.gains
-    field = Field(contender, gains)
+    field = CommandField(contender, gains)
     pulls = {name: np.sum(field(about(BASE, angle)) * -BASE, axis=1) for name, angle in FELT_RAD.items()}
     felt = {name: float(np.min(pulls[name]) / angle) for name, angle in FELT_RAD.items()}  # least over the base's axes
     ratio, is_velocity = math.nan, one.level == VELOCITY
@@ -103,7 +103,7 @@ def row(one: AsShipped, law: str, contender: Contender, request: Request, horizo
     return found | motion(contender, memories, replace(request, gains=gains), horizon_s)
 
 
-def compute_bending(field: Field, angle: float) -> float:
+def compute_bending(field: CommandField, angle: float) -> float:
     """Compute the largest angle between the command at rest and the axis [rad], 0 within ZERO; NaN where all rest."""
     k = axes(DIRECTIONS)
     u = field(about(k, angle))

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.base.on_first_use import Turn
+from bench.base.on_first_use import ScipyRotation
 from bench.experiments.experiment import Experiment, Unit
 from bench.experiments.request import Request
 from bench.law.contenders.registry import contenders
@@ -45,7 +45,7 @@ def units(request: Request) -> tuple[Unit, ...]:
 def rows(request: Request, unit: Unit) -> list[dict]:
     """Return a row a spring and frame of its moment."""
     rng = np.random.default_rng((request.seed, 11))
-    axes = Turn.random(rng=rng).as_matrix()
+    axes = ScipyRotation.random(rng=rng).as_matrix()
     K = axes @ np.diag(STIFFNESSES) @ axes.T
     paths = rng.uniform(-WIDTH, WIDTH, (LOOPS, 3, 3)) / math.sqrt(3.0)
     found = []
@@ -92,7 +92,7 @@ def compute_felt_stiffness(moment: Moment, K: np.ndarray) -> tuple[float, float]
 
 def turn(phi: np.ndarray) -> np.ndarray:
     """Return the unit quaternion (w, x, y, z) of a rotation vector, w >= 0."""
-    return Turn.from_rotvec(phi).as_quat(canonical=True, scalar_first=True)
+    return ScipyRotation.from_rotvec(phi).as_quat(canonical=True, scalar_first=True)
 
 
 def compute_work(moment: Moment, paths: np.ndarray, stiffness: float, points: int = POINTS) -> float:

@@ -74,7 +74,7 @@ def velocity_laws(request: Request) -> list[Contender]:
     return [
         one
         for one in laws(request)
-        if is_velocity_law(one) and (is_named or one.regulator.origin or not one.is_elsewhere)
+        if is_velocity_law(one) and (is_named or one.regulator.origin or not one.uses_nonpaper_coordinates)
     ]
 
 
@@ -112,8 +112,11 @@ def rows(request: Request, unit: Unit) -> dict:
     }
     if unit.arm:
         changed = [OUTCOME, PATH, FURTHEST, PEAK, RATE, OFF]
-        beside = np.vstack([_run(request, unit, part, [nudged(one, NUDGE) for one in part.starts]) for part in every])
-        found |= compare_beside(made[:, changed], beside[:, changed])
+        there = []
+        for part in every:
+            nudged_starts = [nudged(start, NUDGE) for start in part.starts]
+            there.append(_run(request, unit, part, nudged_starts))
+        found |= compare_nudged(made[:, changed], np.vstack(there)[:, changed])
     else:
         found |= {"rounding_change": np.nan, "outcome_beside": ""}
     return found
@@ -148,15 +151,15 @@ def _run(request: Request, unit: Unit, part: Part, some: list[Start]) -> np.ndar
     return run(one, limit, K, some, request.limits(unit.horizon_s), unit.arm, part.lag_s)
 
 
-def compare_beside(numbers: np.ndarray, beside: np.ndarray) -> dict:
+def compare_nudged(here: np.ndarray, there: np.ndarray) -> dict:
     """Compare each row, an outcome and numbers, with the run from a start 1e-12 rad away.
 
     Return the largest relative change of its numbers, and the other outcome if there is one.
     """
-    was, now = numbers[:, 1:], beside[:, 1:]
+    was, now = here[:, 1:], there[:, 1:]
     with np.errstate(invalid="ignore"):
         change = np.abs(now - was) / np.maximum(np.abs(was), 1e-6)
-    outcomes = ([OUTCOMES[int(code)] for code in each[:, 0]] for each in (numbers, beside))
+    outcomes = ([OUTCOMES[int(code)] for code in each[:, 0]] for each in (here, there))
     return {
         "rounding_change": np.nan_to_num(change, nan=math.inf, posinf=math.inf).max(axis=1),
         "outcome_beside": [other if other != one else "" for one, other in zip(*outcomes, strict=True)],

@@ -26,7 +26,7 @@ CURES: dict[type, tuple[str, str]] = {
 """Operators that Python has and a law has not: how each is written, and what to write in its place."""
 
 
-class Function(NamedTuple):
+class DialectFunction(NamedTuple):
     """A function of the dialect: its tree, the value of each free name (as above), and its docstring's summary."""
 
     name: str
@@ -40,7 +40,7 @@ class Function(NamedTuple):
         return [one.arg for one in self.node.args.args]
 
 
-def read_function(function: Callable) -> Function:
+def read_function(function: Callable) -> DialectFunction:
     """Read a function; BadLaw if its text cannot be read, or a name or an operator in it cannot be translated."""
     try:
         text = textwrap.dedent(inspect.getsource(function))
@@ -56,7 +56,7 @@ def read_function(function: Callable) -> Function:
     values = {**vars(builtins), **closure.globals, **closure.nonlocals}
     names = {name: _resolved(function, name, values) for name in free_names(node)}
     summary = (inspect.getdoc(function) or "").partition("\n\n")[0]
-    return Function(function.__name__, node, names, " ".join(summary.split()))
+    return DialectFunction(function.__name__, node, names, " ".join(summary.split()))
 
 
 def refuse_operators(function: ast.FunctionDef) -> None:

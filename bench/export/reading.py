@@ -8,7 +8,17 @@ from collections.abc import Callable
 from typing import Any
 
 from bench.base.errors import BadLaw
-from bench.export.program import INDEX, REAL, TRUTH, Function, Kind, Tuple, arguments, place_of, read_function
+from bench.export.program import (
+    INDEX,
+    REAL,
+    TRUTH,
+    DialectFunction,
+    Kind,
+    Tuple,
+    arguments,
+    place_of,
+    read_function,
+)
 from bench.law.scalar import PRIMITIVES
 
 CALLS_OF_LIBM = {"sin", "cos", "acos", "atan2"}
@@ -79,7 +89,7 @@ class Typed:
     else.
     """
 
-    def __init__(self, program: Program, function: Function, kinds: tuple[Kind, ...]):
+    def __init__(self, program: Program, function: DialectFunction, kinds: tuple[Kind, ...]):
         if len(kinds) != len(function.parameters):
             raise BadLaw(f"{function.name}: called with {len(kinds)} arguments, it takes {len(function.parameters)}")
         self.program, self.function, self.summary = program, function, function.summary

@@ -26,7 +26,7 @@ CLOSE = 1e-7
 lie as near as 1e-8 rad to 180° rotations, and some laws divide by that distance, which leaves half of the digits."""
 
 
-class State(NamedTuple):
+class VectorState(NamedTuple):
     """A state of a body: quaternions (w, x, y, z) of R and R_d, and the angular velocity [rad/s]."""
 
     kind: str
@@ -51,7 +51,7 @@ class Vector(NamedTuple):
         return [float(x) for x in np.hstack([*self.arguments.values(), self.result, self.memory, self.tolerance])]
 
 
-def states(count: int, seed: int = SEED) -> Iterator[State]:
+def states(count: int, seed: int = SEED) -> Iterator[VectorState]:
     """Yield states: uniform, near and at 180°, near the goal, at the poles of angles, spinning."""
     random = np.random.default_rng(seed)
     for at in range(count):
@@ -66,7 +66,7 @@ def states(count: int, seed: int = SEED) -> Iterator[State]:
             ("spinning", drawn, 10.0),
         )[at % 6]
         goal = IDENTITY if kind in ("at 180°", "near a pole") else goal
-        yield State(kind, multiply(turn, goal), goal, faster * random.normal(size=3))
+        yield VectorState(kind, multiply(turn, goal), goal, faster * random.normal(size=3))
 
 
 @functools.lru_cache(maxsize=64)
@@ -85,7 +85,9 @@ def make_vectors(subject: Subject) -> Iterator[Vector]:
         yield from (one for one, _ in zip(finite, range(wanted), strict=False))
 
 
-def _vector(subject: Subject, entry: Entry, state: State, random: np.random.Generator) -> Vector:
+def _vector(
+    subject: Subject, entry: Entry, state: VectorState, random: np.random.Generator
+) -> Vector:
     arguments = {one.name: _argument(subject, one, state, random) for one in entry.parameters}
     with np.errstate(all="ignore"):
         answer = entry.function(*(_as_given(one, arguments[one.name]) for one in entry.parameters))
@@ -96,7 +98,9 @@ def _vector(subject: Subject, entry: Entry, state: State, random: np.random.Gene
     return Vector(entry.name, state.kind, arguments, flat, list(map(float, memory)), tolerance)
 
 
-def _argument(subject: Subject, one: Parameter, state: State, random: np.random.Generator) -> Any:
+def _argument(
+    subject: Subject, one: Parameter, state: VectorState, random: np.random.Generator
+) -> Any:
     """Return a value for an argument, as JSON has it: a number or a list of numbers, a matrix by rows."""
     quat = state.quat_d if "_d" in one.name else state.quat
     name = one.name.removesuffix("_body").removesuffix("_wxyz")

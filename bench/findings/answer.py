@@ -23,7 +23,7 @@ from bench.findings.selection.regions import (
     OVERSHOOT,
     STUDY,
     Rule,
-    Verdict,
+    RuleVerdict,
     facts_of,
     find_default,
     find_regions,
@@ -289,18 +289,18 @@ _CONTROLLERS = {
 }
 
 
-def _describe_verdict(verdict: Verdict) -> str:
-    if verdict.asked == 1:
+def _describe_verdict(verdict: RuleVerdict) -> str:
+    if verdict.eligible == 1:
         return "no other law that was tried meets the requirements"
     if verdict.tied:
         is_pair = len(verdict.tied) == 1
         others = f"{' and' if is_pair else ','} {together(verdict.tied)}"
         simplest = "simpler" if is_pair else "the simplest of these"
         return (
-            f"{verdict.asked} laws meet the requirements; no published or adapted law of these is better than this "
+            f"{verdict.eligible} laws meet the requirements; no published or adapted law of these is better than this "
             f"law{others}; this law is {simplest}"
         )
-    return f"{verdict.asked} laws meet the requirements; no other published or adapted law of these is better"
+    return f"{verdict.eligible} laws meet the requirements; no other published or adapted law of these is better"
 
 
 def _price_on_robot(law: str, run: Path) -> str:

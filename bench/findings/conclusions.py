@@ -225,7 +225,7 @@ def _find_answers(run: Run) -> str:
     )
 
 
-def _name_answers(examined: replication.Examined, what: str) -> str:
+def _name_answers(examined: replication.ExaminedLaws, what: str) -> str:
     """Name the later laws that pass all tests of C27, the advised one first, and whose they are."""
     advised = find_answer().law
     names = sorted(examined.answers, key=lambda name: name != advised)

@@ -74,7 +74,7 @@ CONSTANTS = (
 )
 
 
-class Varied(NamedTuple):
+class VariedConstant(NamedTuple):
     """A law with one value of one constant.
 
     Attributes:
@@ -118,7 +118,7 @@ def default_times(rows: pd.DataFrame, default: str) -> pd.Series:
     return of_default.set_index("situation")["time"]
 
 
-def vary(constant: Constant, rows: pd.DataFrame, default: str) -> list[Varied]:
+def vary(constant: Constant, rows: pd.DataFrame, default: str) -> list[VariedConstant]:
     """Return what each value of a constant does, the shipped one among them, in the order of the values."""
     ratios = shipped_ratios(rows, default)
     beside = default_times(rows, default)
@@ -132,11 +132,11 @@ def vary(constant: Constant, rows: pd.DataFrame, default: str) -> list[Varied]:
         ratio = median_ratio(own.set_index("situation")["time"], beside)
         # Ratios within NOTABLE of each other are ties.
         rank = 1 + sum(other < (1.0 - NOTABLE) * ratio for other in others)
-        found.append(Varied(value, ratio, rank, int(own["lost"].sum())))
+        found.append(VariedConstant(value, ratio, rank, int(own["lost"].sum())))
     return found
 
 
-def describe(constant: Constant, every: list[Varied], default: str) -> str:
+def describe(constant: Constant, every: list[VariedConstant], default: str) -> str:
     """Say within what ratios and ranks a law lies for the values of a constant that were tried."""
     ratios, ranks = [one.ratio for one in every], [one.rank for one in every]
     low, high = min(one.value for one in every), max(one.value for one in every)

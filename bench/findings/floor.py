@@ -30,7 +30,7 @@ TABLE = "floor"
 AXES = ("root_energy", "mixture", "cosine")
 
 
-class Start(NamedTuple):
+class ReducedStart(NamedTuple):
     """Starts, in units of 1/sqrt(a); numbers, or arrays of one shape.
 
     Attributes:
@@ -65,7 +65,7 @@ class Grid(NamedTuple):
     ratios: np.ndarray
 
 
-def find_coordinates(start: Start) -> np.ndarray:
+def find_coordinates(start: ReducedStart) -> np.ndarray:
     """Return the coordinates of starts as the table has them, a row each of AXES."""
     energy = start.angle + 0.5 * start.speed**2
     share = np.divide(start.angle, np.minimum(energy, np.pi), out=np.ones_like(energy), where=energy > 0.0)
@@ -73,15 +73,15 @@ def find_coordinates(start: Start) -> np.ndarray:
     return np.stack([np.sqrt(energy), mixture, start.cosine])
 
 
-def find_start(root_energy: np.ndarray, mixture: np.ndarray, cosine: np.ndarray) -> Start:
+def find_start(root_energy: np.ndarray, mixture: np.ndarray, cosine: np.ndarray) -> ReducedStart:
     """Return the starts at coordinates of the table."""
     energy = root_energy**2
     angle = np.minimum(energy, np.pi) * np.cos(mixture) ** 2
     speed = np.sqrt(2.0 * (energy - angle))
-    return Start(angle, speed, cosine)
+    return ReducedStart(angle, speed, cosine)
 
 
-def measure_starts(quats_wxyz: np.ndarray, omegas: np.ndarray, acceleration: float) -> Start:
+def measure_starts(quats_wxyz: np.ndarray, omegas: np.ndarray, acceleration: float) -> ReducedStart:
     """Return the three numbers of starts.
 
     Args:
@@ -98,7 +98,7 @@ def measure_starts(quats_wxyz: np.ndarray, omegas: np.ndarray, acceleration: flo
     product = sines * speed
     # At rest, or at the goal, there is no angle between two directions, and none is needed.
     cosine = np.divide(along, product, out=np.zeros_like(along), where=product > 0.0)
-    return Start(angle, speed / np.sqrt(acceleration), cosine)
+    return ReducedStart(angle, speed / np.sqrt(acceleration), cosine)
 
 
 @functools.cache

@@ -1,11 +1,11 @@
-"""What is said of a law: sentences, and all of them together with the laws beside it."""
+"""Records of a judgement: its sentences, and the laws that are nearest to the law."""
 
 from typing import Any, NamedTuple
 
 from bench.findings.subjects import SentenceSubject
 
 
-class Said(NamedTuple):
+class Sentence(NamedTuple):
     """A sentence, its subject, and the word of the fault that it names; empty if it names none."""
 
     text: str
@@ -14,18 +14,23 @@ class Said(NamedTuple):
 
 
 class Judgement(NamedTuple):
-    """What is said of a law, and a line for it and for each law of results/reference nearest to it (`why.beside`).
+    """The judgement of a law.
 
-    is_lost: it crashed or hung; its rows say where. heading: its name, and the exception that it raises, if it does.
+    Attributes:
+        name: Name of the law.
+        sentences: What its rows say of it.
+        beside: A line for it and for each law of results/reference nearest to it (`why.beside`).
+        is_lost: Whether it crashed or hung; its rows say where.
+        heading: Its name, and the exception that it raises, if it does.
     """
 
     name: str
-    said: tuple[Said, ...]
+    sentences: tuple[Sentence, ...]
     beside: tuple[dict[str, Any], ...]
     is_lost: bool
     heading: str = ""
 
     @property
     def faults(self) -> list[str]:
-        """The word of each, once."""
-        return list(dict.fromkeys(one.fault for one in self.said if one.fault))
+        """The word of each fault, once."""
+        return list(dict.fromkeys(sentence.fault for sentence in self.sentences if sentence.fault))

@@ -33,7 +33,7 @@ def passed(rows: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame({"settled": settled, "torque": torque, "range": torque & (rows["range_excess_rad"] <= 0.0)})
 
 
-def told_apart(one: pd.Series, other: pd.Series) -> bool:
+def differs_significantly(one: pd.Series, other: pd.Series) -> bool:
     """Whether two controllers differ by more than chance; whether each passes, by start."""
     from scipy.stats import binomtest  # takes a second, and few commands ask it
 
@@ -47,4 +47,7 @@ def best(rows: pd.DataFrame, measure: str, by: str) -> list[str]:
     rows = rows.assign(passes=passed(rows)[measure])
     of = {str(name): own.set_index(START)["passes"] for name, own in rows.groupby(by, observed=True)}
     ranked = sorted(of, key=lambda name: (-of[name].mean(), name))
-    return [name for name in ranked if name == ranked[0] or not told_apart(of[ranked[0]], of[name])]
+    first = ranked[0]
+    return [
+        name for name in ranked if name == first or not differs_significantly(of[first], of[name])
+    ]

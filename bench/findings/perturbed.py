@@ -43,7 +43,7 @@ WITHSTANDS = (
 """What a threshold is, in words."""
 
 
-class Way(NamedTuple):
+class Direction(NamedTuple):
     """A perturbation, and whether its level grows from the mildest outwards or shrinks."""
 
     axis: str
@@ -54,7 +54,7 @@ class Way(NamedTuple):
         """The axis, and the direction where it shrinks."""
         return self.axis if self.grows else f"{self.axis} (down)"
 
-    def outwards(self, levels: Iterable[float]) -> list[float]:
+    def levels_outward(self, levels: Iterable[float]) -> list[float]:
         """Return the levels on this side, from the mildest."""
         nominal = tasks.axis(self.axis).nominal
         start = max(levels) if nominal is None else nominal
@@ -69,19 +69,23 @@ class Threshold(NamedTuple):
     share: float
 
     def __str__(self) -> str:
-        return "none" if math.isnan(self.held) else f"{self.held:g}{'+' * self.is_whole}"
+        return "none" if math.isnan(self.held) else f"{self.held:g}{'+' * self.withstands_all}"
 
     @property
-    def is_whole(self) -> bool:
+    def withstands_all(self) -> bool:
         """Tell whether the law withstands every level tried: its true threshold lies beyond the grid."""
         return math.isnan(self.broken)
 
 
 @functools.cache
-def ways() -> tuple[Way, ...]:
+def directions() -> tuple[Direction, ...]:
     """Return every perturbation, once for each side of its mildest level on which it has others."""
-    each = (Way(name, grows) for name in tasks.axis_names() for grows in (True, False))
-    return tuple(way for way in each if len(way.outwards(tasks.axis(way.axis).levels)) > 1)
+    found = []
+    for name in tasks.axis_names():
+        for direction in (Direction(name, grows=True), Direction(name, grows=False)):
+            if len(direction.levels_outward(tasks.axis(name).levels)) > 1:
+                found.append(direction)
+    return tuple(found)
 
 
 @functools.cache
@@ -121,19 +125,19 @@ def by_level(rows: pd.DataFrame) -> pd.DataFrame:
     ).reset_index()
 
 
-def thresholds(counted: pd.DataFrame) -> dict[str, dict[Way, Threshold]]:
-    """Return each law's threshold along each way of rows of `by_level` with `contender`."""
-    found: dict[str, dict[Way, Threshold]] = {}
+def thresholds(counted: pd.DataFrame) -> dict[str, dict[Direction, Threshold]]:
+    """Return each law's threshold along each direction of rows of `by_level` with `contender`."""
+    found: dict[str, dict[Direction, Threshold]] = {}
     rows = counted.assign(share=counted["good"] / counted["starts"])
     for (law, axis), own in rows.groupby([rows["contender"].astype(str), rows["axis"].astype(str)], sort=False):
         shares = own.set_index("level")["share"]
-        for way in (way for way in ways() if way.axis == axis):
-            found.setdefault(law, {})[way] = _threshold(shares, way)
+        for direction in (direction for direction in directions() if direction.axis == axis):
+            found.setdefault(law, {})[direction] = _threshold(shares, direction)
     return found
 
 
-def _threshold(shares: pd.Series, way: Way) -> Threshold:
-    levels, held = way.outwards(shares.index), math.nan
+def _threshold(shares: pd.Series, direction: Direction) -> Threshold:
+    levels, held = direction.levels_outward(shares.index), math.nan
     least = max(FEWEST, shares[levels[0]] - LOST)
     for level in levels:
         if shares[level] < least:

@@ -19,7 +19,7 @@ from tasks.rotations import about
 from tasks.truth import angle
 
 
-class Question(NamedTuple):
+class FieldQuestion(NamedTuple):
     """A public thread; its first one names it.
 
     threads: owner/repository#number. quantity: what measure() returns, without and with the cure; it is right where it
@@ -150,7 +150,11 @@ def measure_interpolation() -> tuple[float, ...]:
 
 
 QUESTIONS = tuple(
-    Question(measure=globals()[f"measure_{word}"], **{**texts, "threads": tuple(texts["threads"])})
-    for word, texts in tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")).items()
+    FieldQuestion(
+        measure=globals()[f"measure_{word}"], **{**texts, "threads": tuple(texts["threads"])}
+    )
+    for word, texts in tomllib.loads(
+        Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")
+    ).items()
 )
 """In the order of the file."""

@@ -149,7 +149,7 @@ def count_single_axes(run: Run) -> Share:
     )
 
 
-class Examined(NamedTuple):
+class ExaminedLaws(NamedTuple):
     """The laws of a run by the tests of C27, the fewest operations first, and what is known of their cost."""
 
     laws: dict[str, Adequacy]
@@ -165,13 +165,13 @@ class Examined(NamedTuple):
         ]
 
 
-def examine_laws(run: Run) -> Examined:
+def examine_laws(run: Run) -> ExaminedLaws:
     """Return every law of a run by C27's tests, as the claim does; NoEvidence: the run lacks starts or costs."""
     laws = {one.name: one for one in every(run, MAIN_ENGINE)}
     ledger, small_s = of_three(run), linear_settling(*run.gains())
     by_noise = held(run, HELD_RAD)
     tested = {name: examine(law, ledger, small_s, by_noise) for name, law in laws.items()}
-    return Examined(laws, tested, ledger, small_s)
+    return ExaminedLaws(laws, tested, ledger, small_s)
 
 
 def time_over(ledger: Ledger, name: str, other: str) -> Estimate | None:

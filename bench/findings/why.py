@@ -18,7 +18,7 @@ from bench.experiments.command_field import EXCHANGED
 from bench.experiments.tables.run import with_contender
 from bench.experiments.tables.statistics import quantile
 from bench.findings.amounts import count_of, join_words
-from bench.findings.judgement import Said
+from bench.findings.judgement import Sentence
 from bench.findings.perturbed import WITHSTANDS, by_level, thresholds
 from bench.findings.subjects import SentenceSubject
 from bench.findings.theory.thresholds import near_goal
@@ -63,13 +63,19 @@ FAULTS |= {"crashed": "raises or exits", "hung": "does not return"}
 
 def sentences(
     rows: pd.DataFrame, declared: str, cause: str = "", stiffness: tuple[float, ...] = (1.0, 1.0, 1.0)
-) -> list[Said]:
+) -> list[Sentence]:
     """Return what its rows of command-field.parquet say of a law; declared, stiffness: as its file has them.
 
     cause: the fault that explains all others (`find_cause`); then only it and what is known of the goal are said.
     """
     if rows.empty:
-        return [Said("Its command was not looked at: it crashed or hung.", SentenceSubject.LOST_STARTS, "broken")]
+        return [
+            Sentence(
+                "Its command was not looked at: it crashed or hung.",
+                SentenceSubject.LOST_STARTS,
+                "broken",
+            )
+        ]
     whats = find_words(rows, declared)
     if whats["stiffness"] == "as-set" and len(set(stiffness)) > 1:
         whats["stiffness"] = "by-axis"
@@ -138,39 +144,41 @@ def _value_of(rows: pd.DataFrame, finding: str) -> float:
     return float(rows.loc[rows["finding"] == finding, "value"].iloc[0])
 
 
-def _say(known: dict[str, str], words: dict[str, str], is_fault: bool = True) -> Said:
+def _say(known: dict[str, str], words: dict[str, str], is_fault: bool = True) -> Sentence:
     subject = SentenceSubject(known["subject"])
-    return Said(known["text"].format(**words), subject, known.get("fault", "") if is_fault else "")
+    return Sentence(
+        known["text"].format(**words), subject, known.get("fault", "") if is_fault else ""
+    )
 
 
-def ends(rows: pd.DataFrame, declared: str) -> list[Said]:
+def ends(rows: pd.DataFrame, declared: str) -> list[Sentence]:
     """How its episodes by one engine end: settled a of b, the first start of each other outcome, and how it rests."""
     is_settled, sets = rows["outcome"] == "settled", rows["start_set"].astype(str)
     each = (f"{name} {own.sum():,} of {len(own):,}" for name, own in is_settled.groupby(sets, sort=False))
-    said = [Said(f"Settled: {', '.join(each)}.", SentenceSubject.JUDGE)]
+    said = [Sentence(f"Settled: {', '.join(each)}.", SentenceSubject.JUDGE)]
     is_known = (rows["angle0_rad"] > math.pi - NEAR_RAD) & declared.startswith("almost global")
     lost = rows[~is_settled]
     for (known, outcome), own in lost.groupby([is_known, lost["outcome"].astype(str)], sort=False):
         text = f"Not settled, {outcome}: {_counts(own)}."
         fault = "" if known else FAULTS.get(outcome, "lost starts")
-        said.append(Said(text, SentenceSubject.LOST_STARTS, fault))
+        said.append(Sentence(text, SentenceSubject.LOST_STARTS, fault))
     settled = rows[is_settled]
     chatters, quiet = settled[settled["rest_change"] > CHATTER], settled[settled["rest_change"] <= CHATTER]
     change = f"at rest its command changes by {settled['rest_change'].max():.3g} rad/s² from tick to tick"
     if len(chatters):
         text = f"Chatter: {change}, over {CHATTER:g}: {_counts(chatters)}."
-        said.append(Said(text, SentenceSubject.JUDGE, "chatter"))
+        said.append(Sentence(text, SentenceSubject.JUDGE, "chatter"))
     elif len(quiet):
-        said.append(Said(f"Quiet: {change}.", SentenceSubject.JUDGE))
+        said.append(Sentence(f"Quiet: {change}.", SentenceSubject.JUDGE))
     uniform = quiet[quiet["start_set"] == "uniform"]
     long_way = uniform[uniform["path_ratio"] * uniform["angle0_rad"] > math.pi]
     if 2 * len(long_way) > len(uniform):
         text = f"Unwinding: it turns by more than 180 deg from {_counts(long_way)}; {len(uniform)} settle."
-        said.append(Said(text, SentenceSubject.UNWINDING, "unwinding"))
+        said.append(Sentence(text, SentenceSubject.UNWINDING, "unwinding"))
     return said
 
 
-def head_lost(name: str, rows: pd.DataFrame, reason: str) -> str:
+def describe_lost_starts(name: str, rows: pd.DataFrame, reason: str) -> str:
     """Return a law's name and, if it crashes or hangs, why, from what share of its starts, and from which angle on."""
     lost = rows[rows["outcome"].isin(("crashed", "hung"))] if reason and len(rows) else rows[:0]
     if lost.empty:
@@ -184,35 +192,42 @@ def is_settling(rows: pd.DataFrame) -> bool:
     return bool(((rows["outcome"] == "settled") & (rows["angle0_rad"] >= RULES.at_goal_rad)).any())
 
 
-def not_run(cause: str, episodes: pd.DataFrame, is_lost: bool) -> list[Said]:
+def not_run(cause: str, episodes: pd.DataFrame, is_lost: bool) -> list[Sentence]:
     """Say what was not run, and why: where a cause is known no episode, where no start settles no perturbation."""
     if cause:
         text = "No episode was run: the fault explains what episodes would show. Correct it first."
-        return [Said(text, SentenceSubject.JUDGE)]
+        return [Sentence(text, SentenceSubject.JUDGE)]
     if len(episodes) and not is_lost and not is_settling(episodes):
         text = "No perturbation was tried: without one the law settles from no start."
-        return [Said(text, SentenceSubject.ROBUSTNESS)]
+        return [Sentence(text, SentenceSubject.ROBUSTNESS)]
     return []
 
 
-def perturbed(rows: pd.DataFrame) -> list[Said]:
+def perturbed(rows: pd.DataFrame) -> list[Sentence]:
     """State up to which level the law withstands each perturbation, and what closed forms say of it."""
     if rows.empty:
         return []
     gains = float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0])
     [found] = thresholds(with_contender(by_level(rows))).values()
-    whole = [f"{way.name} {one.held:g}" for way, one in found.items() if one.is_whole]
+    whole = [
+        f"{direction.name} {one.held:g}" for direction, one in found.items() if one.withstands_all
+    ]
     parts = []
-    for way, one in found.items():
-        if not one.is_whole:
-            limit, unit = near_goal(way.axis, way.grows, *gains), tasks.axis(way.axis).unit
+    for direction, one in found.items():
+        if not one.withstands_all:
+            limit, unit = (
+                near_goal(direction.axis, direction.grows, *gains),
+                tasks.axis(direction.axis).unit,
+            )
             theory = f"; theory near the goal, for every law: {limit:.3g}" if limit == limit else ""
             held = "none" if math.isnan(one.held) else f"{one.held:g}"
-            parts.append(f"{way.name} {held} {unit} ({one.share:.0%} at {one.broken:g}{theory})")
+            parts.append(
+                f"{direction.name} {held} {unit} ({one.share:.0%} at {one.broken:g}{theory})"
+            )
     text = f"Thresholds: {'; '.join(parts)}. " if parts else ""
     text += f"Withstood to the last level tried: {', '.join(whole)}." if whole else ""
     text = f"{text.strip()} A threshold is where {WITHSTANDS.partition(';')[0]}."
-    return [Said(text, SentenceSubject.ROBUSTNESS)]
+    return [Sentence(text, SentenceSubject.ROBUSTNESS)]
 
 
 def beside(field: pd.DataFrame, episodes: pd.DataFrame, run_field: pd.DataFrame, run: pd.DataFrame) -> pd.DataFrame:

@@ -46,17 +46,18 @@ class Contender(NamedTuple):
     @property
     def is_beyond_the_paper(self) -> bool:
         """Whether it is a later law of ours, or one on coordinates that the paper sets aside (Murphy 1988, 2.2)."""
-        return (self.is_elsewhere or self.regulator.later) and not self.regulator.origin
+        is_beyond = self.uses_nonpaper_coordinates or self.regulator.is_beyond_the_paper
+        return is_beyond and not self.regulator.origin
 
     @property
-    def is_elsewhere(self) -> bool:
+    def uses_nonpaper_coordinates(self) -> bool:
         """Whether it acts on coordinates that the paper sets aside (Murphy 1988, 2.2)."""
-        return self.representation is not None and not self.representation.papers
+        return self.representation is not None and not self.representation.is_in_paper
 
     @property
     def attribution(self) -> str:
         """Attribution (`bench.law.attribution`): a published law in coordinates that its work has not is adapted."""
-        if self.is_elsewhere and self.regulator.attribution == PUBLISHED:
+        if self.uses_nonpaper_coordinates and self.regulator.attribution == PUBLISHED:
             return ADAPTED
         return self.regulator.attribution
 
@@ -77,7 +78,8 @@ class Contender(NamedTuple):
 
     @property
     def _is_abroad(self) -> bool:
-        return self.is_elsewhere and (self.regulator.coordinates == "any" or len(self.regulator.coordinates) > 1)
+        coordinates = self.regulator.coordinates
+        return self.uses_nonpaper_coordinates and (coordinates == "any" or len(coordinates) > 1)
 
     @property
     def equation(self) -> Equation | None:

@@ -56,6 +56,10 @@ class UserFile(NamedTuple):
     text: str = ""
 
 
+FORMER_FIELDS = {"later": "is_beyond_the_paper"}
+"""Fields of a `Law` by the names that they had before: a user's file may still write them."""
+
+
 class LawFields(NamedTuple):
     """The fields of a `Law`."""
 
@@ -66,7 +70,7 @@ class LawFields(NamedTuple):
     law: Callable | OnCoordinates | None = None
     memory: tuple | None = None
     property: str = "local"
-    later: bool = False
+    is_beyond_the_paper: bool = False
     role: str = CONTESTANT
     stiffness: tuple[float, float, float] = (1.0, 1.0, 1.0)
     margin: Callable | None = None
@@ -89,7 +93,8 @@ class Law(LawFields):
         property: what is proved about convergence: "local", "almost global", "global with memory" or
             "none", or the gains for which it is proved.
         file: the `UserFile` of a law that a user wrote; empty for our laws.
-        later: True for a law that is not in the paper. We simulate such a law from fewer starts.
+        is_beyond_the_paper: True for a law that is not in the paper. We simulate such a law from
+            fewer starts. The former name `later` is accepted for one more release.
         role: "contestant"; "control", "costing" or "actuator" for the few laws that are here for
             another reason than to be compared.
         stiffness: stiffness near the goal about the axes n_d, o_d and a_d of the goal, divided by kp.
@@ -114,7 +119,8 @@ class Law(LawFields):
         coordinates: str | tuple[str, ...] = ON_MATRIX,
         **fields: Any,
     ) -> "Law":
-        """Make a law; law_in and coordinates are put into one record."""
+        """Make a law. law_in and coordinates become one record; former names of fields are accepted."""
+        fields = {FORMER_FIELDS.get(field, field): value for field, value in fields.items()}
         if law_in is not None or coordinates != ON_MATRIX:
             law = OnCoordinates(law_in, coordinates)
         return super().__new__(cls, name, title, source, formula, law, **fields)
@@ -230,7 +236,7 @@ class Coordinates(NamedTuple):
     differentiate_twice(R, Rdot, Rddot) -> Eddot
 
     about: the indices of the coordinates that are angles about x, y and z; None if there are no such coordinates.
-    papers: whether the paper uses these coordinates (Murphy 1988, 2.2).
+    is_in_paper: whether the paper uses these coordinates (Murphy 1988, 2.2).
     """
 
     name: str
@@ -249,13 +255,13 @@ class Coordinates(NamedTuple):
     differentiate: Callable | None = None
     differentiate_twice: Callable | None = None
     about: tuple[int, int, int] | None = (0, 1, 2)
-    papers: bool = False
+    is_in_paper: bool = False
     display: Display = Display()
     attribution: str = YOURS
 
     @property
     def goal_chart(self) -> Callable:
-        """The chart again, for the goal: a name of its own, so that its cost is a stage of its own."""
+        """Return `chart` by a second name, so that its operations are counted as their own stage."""
         return self.chart
 
 
@@ -320,12 +326,12 @@ class Baseline(HasLaw):
         law: The words of the controller, and the law that it commands the tool by.
         assemble: assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory) replaces equations
             (2.2) and (3.7).
-        through: For a baseline that commands joints: the Jacobian, and the method that inverts it.
-            Empty for every other baseline.
+        resolution: For a baseline that commands joints: the Jacobian, and the method that inverts
+            it. Empty for every other baseline.
     """
 
     assemble: Callable
-    through: tuple[Jacobian, Inverse] | tuple[()] = ()
+    resolution: tuple[Jacobian, Inverse] | tuple[()] = ()
 
 
 class Impedance(NamedTuple):

@@ -19,7 +19,7 @@ from bench.experiments.plan import Plan
 from bench.experiments.request import check_workers
 from bench.experiments.tables.store import lost_table, merge, read_arrow, write_table
 from bench.running.precompile import compiling_ahead
-from bench.running.run_folder import begin, held, inspect, part, read_part, sweep, tidy
+from bench.running.run_folder import begin, inspect, open_run_folder, part, read_part, sweep, tidy
 from bench.running.sandbox.sandbox import LOST, Sandbox
 from bench.running.schedulers import THREADS, check_scheduler, kind, threads
 
@@ -44,7 +44,7 @@ def run(
     check_workers(workers)
     check_scheduler(scheduler)
     out = Path(out)
-    with held(out), Sandbox(plan, law_limit_s) as sandbox:
+    with open_run_folder(out), Sandbox(plan, law_limit_s) as sandbox:
         state = inspect(plan, out, replace)
         if state.finished:
             tidy(out)

@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 import pyarrow as pa
 
-from bench.base import lock
 from bench.base.errors import BadResults
 from bench.base.files import is_leftover, make_folder, read_json, refuse_link, refused, write_atomically, write_json
+from bench.base.lock import lock_folder
 from bench.base.provenance import read_provenance
 from bench.experiments.experiment import Unit, experiment_of, known_experiments
 from bench.experiments.plan import Plan, digest_of
@@ -26,7 +26,7 @@ from bench.experiments.tables import packed, trust
 from bench.experiments.tables.store import check
 
 
-class State(NamedTuple):
+class FolderState(NamedTuple):
     """What a results folder holds of a plan; spoiled: units whose parts are not as a run of it wrote them."""
 
     finished: bool
@@ -35,13 +35,13 @@ class State(NamedTuple):
 
 
 @contextlib.contextmanager
-def held(out: Path) -> Iterator[None]:
+def open_run_folder(out: Path) -> Iterator[None]:
     """Keep other runs out of the folder, made if there is none and never left empty; BadResults if one is at work."""
     is_new = not out.exists()
     with contextlib.ExitStack() as stack:
         try:
             make_folder(out)
-            stack.enter_context(lock.held(out))
+            stack.enter_context(lock_folder(out))
         except OSError as error:
             raise refused(out, error) from error
         try:
@@ -51,14 +51,14 @@ def held(out: Path) -> Iterator[None]:
                 out.rmdir()
 
 
-def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
+def inspect(plan: Plan, out: Path, replace: bool = False) -> FolderState:
     """Return which units are finished in `out`, and change nothing there; BadResults for a foreign folder.
 
     A folder is foreign if it holds another plan, or files that no run of ours has made.
     """
     out = Path(out)
     if not _content(out):
-        return State(False, frozenset())
+        return FolderState(False, frozenset())
     for path in _content(out):
         refuse_link(path)
     if not (out / "plan.json").is_file():
@@ -70,7 +70,7 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
     is_whole = found == digest_of(content)
     if not is_whole or found != plan.digest:
         if replace:
-            return State(False, frozenset())
+            return FolderState(False, frozenset())
         is_other = f"holds another plan ({describe_difference(content, plan.identity())})"
         was_changed = "has a plan.json that was edited or damaged: its digest is not that of what it says"
         raise BadResults(
@@ -83,10 +83,10 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
     for path, table in tables.items() if finished else ():
         check(path, table)
     if finished:
-        return State(True, frozenset(unit.key for unit in plan.units))
+        return FolderState(True, frozenset(unit.key for unit in plan.units))
     found = [unit for unit in plan.units if os.path.lexists(part(out, unit))]
     done = frozenset(unit.key for unit in found if is_sound(plan, out, unit))
-    return State(False, done, tuple(unit for unit in found if unit.key not in done))
+    return FolderState(False, done, tuple(unit for unit in found if unit.key not in done))
 
 
 def describe_difference(kept: dict, wanted: dict) -> str:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from bench.findings.floor import AXES, STUDY, TABLE, Start, find_start
+from bench.findings.floor import AXES, STUDY, TABLE, ReducedStart, find_start
 from bench.findings.theory.extremals import (
     SOLVED,
     Bodies,
@@ -74,7 +74,7 @@ class Nodes(NamedTuple):
 
     shape: tuple[int, ...]
     coordinates: np.ndarray
-    start: Start
+    start: ReducedStart
     bodies: Bodies
     times: np.ndarray
     unknown: np.ndarray
@@ -107,7 +107,7 @@ def make_nodes(axes: tuple[np.ndarray, ...]) -> Nodes:
     )
 
 
-def place_bodies(start: Start) -> Bodies:
+def place_bodies(start: ReducedStart) -> Bodies:
     """Return bodies turned from the goal about z, with their spin in the plane of x and z."""
     half = 0.5 * start.angle
     zero = np.zeros_like(half)

@@ -25,7 +25,7 @@ from bench.experiments.situations import mapped_laws, plan_of
 from bench.experiments.tables.schema import table_of
 from bench.experiments.tables.store import read, write_table
 from bench.findings.selection.pairs import read_run
-from bench.findings.selection.regions import NAMES, STUDY, Verdict, decide, is_drawn, with_words
+from bench.findings.selection.regions import NAMES, STUDY, RuleVerdict, decide, is_drawn, with_words
 from bench.running import run
 from bench.studies.study import keep_table, make_parser
 from tasks.situation import COORDINATES, NOMINAL, Situation, read_situation, rounded
@@ -74,7 +74,7 @@ def draw(count: int, seed: int, names: Iterable[str] = NAMES) -> list[Situation]
     return found
 
 
-def between(verdicts: dict[Situation, Verdict]) -> list[Situation]:
+def between(verdicts: dict[Situation, RuleVerdict]) -> list[Situation]:
     """Return the situations halfway between neighbours along a plane that get other advice."""
     found = []
     for name in NAMES[1:]:
@@ -106,7 +106,7 @@ class Map(NamedTuple):
             pd.concat([self.pairs, pairs], ignore_index=True),
         )
 
-    def verdicts(self) -> dict[Situation, Verdict]:
+    def verdicts(self) -> dict[Situation, RuleVerdict]:
         """Return the rule's verdict on every situation."""
         pairs = dict(list(self.pairs.groupby("situation", observed=True)))
         none = self.pairs.iloc[:0]

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 
-class Fault(NamedTuple):
+class ThemeFault(NamedTuple):
     """What the theme writes, and what it should write."""
 
     written: re.Pattern[str]
@@ -19,9 +19,13 @@ class Fault(NamedTuple):
     """Whether each page has it: then one without it shows that the theme has another form."""
 
 
-def name_dialog(element: str, name: str) -> Fault:
+def name_dialog(element: str, name: str) -> ThemeFault:
     """Return the fault of a dialog that has no name."""
-    return Fault(re.compile(rf'<dialog id="{element}">'), rf'<dialog id="{element}" aria-label="{name}">', False)
+    return ThemeFault(
+        re.compile(rf'<dialog id="{element}">'),
+        rf'<dialog id="{element}" aria-label="{name}">',
+        False,
+    )
 
 
 VIEWPORT = re.compile(r'\s*<meta name="viewport"[^>]*>')
@@ -29,9 +33,13 @@ FAULTS = (
     name_dialog("pst-primary-sidebar-modal", "Menu"),
     name_dialog("pst-secondary-sidebar-modal", "Contents of this page"),
     name_dialog("pst-search-dialog", "Search"),
-    Fault(re.compile(r'(<button class="btn search-button-field[^>]*) aria-label="Search"'), r"\1"),
-    Fault(re.compile(r'(<i class="theme-switch [^>]*) title="[\w ]+"'), r'\1 aria-hidden="true"'),
-    Fault(
+    ThemeFault(
+        re.compile(r'(<button class="btn search-button-field[^>]*) aria-label="Search"'), r"\1"
+    ),
+    ThemeFault(
+        re.compile(r'(<i class="theme-switch [^>]*) title="[\w ]+"'), r'\1 aria-hidden="true"'
+    ),
+    ThemeFault(
         re.compile(r'<div class="sidebar-primary-item">(?=\s*<a class="navbar-brand logo")'),
         '<div class="sidebar-primary-item" role="navigation" aria-label="Front page">',
     ),

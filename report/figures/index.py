@@ -23,7 +23,7 @@ from report.figures.kit.spelling import prose
 from report.figures.method.provenance import CITATION, cited
 from report.figures.replication.conclusions import SHORT, call_laws, count_statements, list_in_short
 
-NEEDS = html.Table("Your controller | Use | Why | Price")
+NEEDS = html.PageTable("Your controller | Use | Why | Price")
 
 
 def facts(run: Run) -> dict[str, Any]:

@@ -21,7 +21,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -67,36 +67,57 @@ class Choice:
 CHOICE = pytest.StashKey[Choice]()
 
 
+class Option(NamedTuple):
+    """An option that may be repeated.
+
+    Attributes:
+        name: The option.
+        field: Name of its list of values.
+        metavar: What stands for a value in the help.
+        help: What a value does.
+        kind: Type of a value.
+    """
+
+    name: str
+    field: str
+    metavar: str
+    help: str
+    kind: type = str
+
+
+REPEATABLE = (
+    Option(
+        "--law",
+        "law_files",
+        "FILE",
+        "Time the law of this file, too. Its code runs in this process.",
+        Path,
+    ),
+    Option(
+        "--contender",
+        "contenders",
+        "NAME",
+        "Time only this law, as hybrid or linearized-euler/zyx-euler.",
+    ),
+    Option("--arm", "arms", "ARM", "Time only this arm."),
+)
+
+
 def pytest_addoption(parser):
     """Add the options of these benchmarks to those of pytest-benchmark."""
     group = parser.getgroup("control ticks")
     group.addoption("--rounds", type=int, default=ROUNDS, help="Rounds of each benchmark.")
-    group.addoption(
-        "--law",
-        dest="law_files",
-        action="append",
-        type=Path,
-        default=[],
-        metavar="FILE",
-        help="Time the law of this file, too. Its code runs in this process.",
-    )
+    for option in REPEATABLE:
+        group.addoption(
+            option.name,
+            dest=option.field,
+            action="append",
+            type=option.kind,
+            default=[],
+            metavar=option.metavar,
+            help=f"{option.help} May be repeated.",
+        )
     group.addoption("--only-files", action="store_true", help="Time only the laws of --law.")
-    group.addoption(
-        "--contender",
-        dest="contenders",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="Time only this law, as hybrid or linearized-euler/zyx-euler; may be repeated.",
-    )
-    group.addoption(
-        "--arm",
-        dest="arms",
-        action="append",
-        default=[],
-        metavar="ARM",
-        help="Time only this arm; may be repeated.",
-    )
     group.addoption(
         "--shuffle",
         type=int,

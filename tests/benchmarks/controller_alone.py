@@ -26,11 +26,11 @@ from bench.engines.compiled import (
     types,
 )
 from bench.engines.counting.states import BOUND_OVER_KP
+from bench.engines.mujoco_view import Simulated, compiled_view
 from bench.engines.native.libmujoco import library_function, mj_fullM, model_of
-from bench.engines.plants.arm import Work
+from bench.engines.plants.arm import ArmWork
 from bench.engines.plants.arm import work as arm_work
-from bench.engines.simulated import Simulated, compiled_view
-from bench.engines.typed import borrow, type_of
+from bench.engines.typed import pass_by_reference, type_of
 from bench.law.chain import Chain
 from bench.law.contender import Contender
 from bench.law.control.resolved_acceleration import control
@@ -58,7 +58,7 @@ class World(NamedTuple):
     """An arm, buffers, and the place and frame of its tool."""
 
     sim: Simulated
-    work: Work
+    work: ArmWork
     position: Vector
     frame: Vector
 
@@ -121,7 +121,7 @@ def compile_loop():
     mj_kinematics, mj_comPos, mj_makeM, mj_comVel, mj_passive = KINEMATICS
 
     def loop(assemble, resolve, world, rows, memory0, states, kp, kv, sweeps):
-        body = borrow(world)
+        body = pass_by_reference(world)
         view = body.sim
         p = body.position
         r = body.frame

@@ -9,10 +9,10 @@ import numpy as np
 import tasks
 from bench.engines.episode import blank
 from bench.engines.metrics.registry import metrics_of
+from bench.engines.mujoco_view import compiled_view
 from bench.engines.native.libmujoco import model_of
 from bench.engines.plants import free_body
 from bench.engines.simulate import compiled_loop, evaluation
-from bench.engines.simulated import compiled_view
 from bench.experiments.request import Request
 from bench.law.contender import Contender
 from benchmarks.subject import NEVER, Episodes, Subject, time_episodes
@@ -43,7 +43,7 @@ def engine_loop(engine: str, contender: Contender) -> Subject:
     return time_episodes(contender, episodes, engine)
 
 
-def _make_body(starts: list) -> tuple[tuple, free_body.World]:
+def _make_body(starts: list) -> tuple[tuple, free_body.FreeBodyWorld]:
     """Return MuJoCo's free body at the starts: what owns its memory, and the world of the loop."""
     task = tasks.task("free-body")
     model = model_of(task.xml(SETTINGS.dt_s), "euler")
@@ -53,4 +53,4 @@ def _make_body(starts: list) -> tuple[tuple, free_body.World]:
         qpos, qvel = task.state(start)
         states.append([*qpos, *qvel])
     table = np.array(states)
-    return (data, table), free_body.World(compiled_view(model, data), 0, table)
+    return (data, table), free_body.FreeBodyWorld(compiled_view(model, data), 0, table)

@@ -36,7 +36,12 @@ def takes_number(option: click.Parameter) -> bool:
     """Tell whether an option converts its word to a number, by its type or by a function."""
     if not isinstance(option, click.Option) or option.is_flag:
         return False
-    kinds = (options.Number, click.types.FloatParamType, click.types.IntParamType, click.types.FuncParamType)
+    kinds = (
+        options.NumberOption,
+        click.types.FloatParamType,
+        click.types.IntParamType,
+        click.types.FuncParamType,
+    )
     return isinstance(option.type, kinds)
 
 
@@ -53,7 +58,7 @@ def test_every_number_is_of_our_type_or_a_time():
     others = [
         (*words, option.opts[0])
         for words, option in NUMBERS
-        if not isinstance(option.type, options.Number | click.types.FuncParamType)
+        if not isinstance(option.type, options.NumberOption | click.types.FuncParamType)
     ]
     assert others == []
     named = {(words[0], option.opts[0]) for words, option in NUMBERS}
@@ -85,7 +90,11 @@ def test_word_that_is_no_number_is_refused_in_one_line(words, option):
 def test_default_and_the_example_of_the_message_are_taken(words, option):
     command = commands()[words]
     arguments = ["law" for one in command.params if isinstance(one, click.Argument) and one.required]
-    example = [f"{option.opts[0]}={option.type.example}"] if isinstance(option.type, options.Number) else []
+    example = (
+        [f"{option.opts[0]}={option.type.example}"]
+        if isinstance(option.type, options.NumberOption)
+        else []
+    )
     for given in ([], example):
         assert command.make_context(words[0], [*arguments, *given]) is not None
 
@@ -102,7 +111,7 @@ def test_message_names_what_was_given_what_is_allowed_and_the_cure(capsys):
 
 
 def test_number_takes_its_bounds_and_infinity_where_it_means_something():
-    bound = options.Number(0.0, 10.0, 1.0, is_open=True, infinite="no bound")
+    bound = options.NumberOption(0.0, 10.0, 1.0, is_open=True, infinite="no bound")
     assert bound.convert("10", None, None) == 10.0
     assert bound.convert("inf", None, None) == math.inf
     for word in ("0", "10.1", "-inf", "nan"):

@@ -46,7 +46,7 @@ NOT_WRITTEN = "stopped; nothing was written\n"
     ("module", "words", "said"),
     [
         ("bench.cli.paragraphs", ("judge", "hybrid"), NOT_WRITTEN),
-        ("bench.findings.judged", ("judge", "hybrid"), NOT_WRITTEN),
+        ("bench.findings.judge_law", ("judge", "hybrid"), NOT_WRITTEN),
         ("bench.findings.selection.advice", ("advise", "--run"), NOT_WRITTEN),
         ("bench.findings.claims.tables", ("claims", "results/reference"), NOT_WRITTEN),
         ("bench.running", ("run", "--suite", "quick"), "stopped; what was finished is kept, and the same command goes"),

@@ -85,9 +85,10 @@ def rows(law, starts, condition):
 
 @pytest.mark.slow
 def test_its_last_level_changes_rows(axis):
-    ways = [way.outwards(axis.levels) for way in perturbed.ways() if way.axis == axis.name]
-    assert ways
-    for mildest, *_, last in ways:
+    directions = [direction for direction in perturbed.directions() if direction.axis == axis.name]
+    assert directions
+    for direction in directions:
+        mildest, *_, last = direction.levels_outward(axis.levels)
         mild, perturbing = condition_at(axis, mildest), condition_at(axis, last)
         starts = axis.starts(4, 0, last)
         # Where no field differs, as with a spin, the starts must do it.

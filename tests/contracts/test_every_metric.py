@@ -18,7 +18,7 @@ import tasks
 from bench.engines import contact_episode
 from bench.engines.arm_episode import ArmSample
 from bench.engines.compiled import JIT, register_kernels
-from bench.engines.contact_episode import WIDTH, Ended
+from bench.engines.contact_episode import WIDTH, EndedEpisode
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME
 from bench.engines.metrics.contact_metric import Pose, response
 from bench.engines.metrics.metric import Ending
@@ -168,7 +168,12 @@ def broken_poses() -> list[Pose]:
     records = [np.zeros((0, WIDTH)), np.zeros((1, WIDTH)), np.full((3, WIDTH), np.nan)]
     words = [word for word in contact_episode.OUTCOMES.values() if word != "done"]
     return [
-        dataclasses.replace(pose, responses=tuple(response(one.trial, Ended(word, record)) for one in pose.responses))
+        dataclasses.replace(
+            pose,
+            responses=tuple(
+                response(one.trial, EndedEpisode(word, record)) for one in pose.responses
+            ),
+        )
         for pose in measured_poses()[:: len(CONTROLLERS)]
         for word, record in itertools.product(words, records)
     ]

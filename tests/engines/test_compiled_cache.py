@@ -17,7 +17,7 @@ from support.driving import METRICS, settings, spread
 
 import tasks
 from bench.engines import simulate as engines
-from bench.engines.compiled import made_once
+from bench.engines.compiled import compile_once
 from bench.engines.native.libmujoco import model_of, skip_constraints
 from bench.law.contenders.registry import find_contender
 from tasks.contact_model import model_xml
@@ -26,7 +26,7 @@ from tasks.contact_model import model_xml
 def test_threads_that_need_the_same_wait_for_the_first_to_make_it():
     made = []
 
-    @made_once
+    @compile_once
     def slowly(word):
         made.append(word)
         time.sleep(0.05)

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation as Turn
+from scipy.spatial.transform import Rotation as ScipyRotation
 from support.contact_records import ARM, CARTESIAN, answered, pose, specification, spun, trial
 
 from bench.engines.metrics.contact import held_axes, port, rest, stiffness, wrench
@@ -33,9 +33,14 @@ def record(task=surface_alignment.TASK, rested=False, **arrays) -> Pose:
 
 
 LATE = np.clip(TIME - 3.5, 0.0, None)
-CREEPS = record(p=np.outer(LATE, (3e-3, 0.0, 4e-3)), R=Turn.from_rotvec(np.outer(LATE, (0.0, 0.02, 0.0))).as_matrix())
+CREEPS = record(
+    p=np.outer(LATE, (3e-3, 0.0, 4e-3)),
+    R=ScipyRotation.from_rotvec(np.outer(LATE, (0.0, 0.02, 0.0))).as_matrix(),
+)
 FADES_S = 0.2
-TILTS = Turn.from_rotvec(np.outer(0.3 * np.exp(-TIME / FADES_S), (1.0, 0.0, 0.0))) * Turn.from_euler("x", np.pi)
+TILTS = ScipyRotation.from_rotvec(
+    np.outer(0.3 * np.exp(-TIME / FADES_S), (1.0, 0.0, 0.0))
+) * ScipyRotation.from_euler("x", np.pi)
 """The wrist points up, along minus the plate's normal, and its angle fades as exp(-t/FADES_S)."""
 PEAKS = np.tile((100.0, 0.0, 20.0), (TICKS, 1))
 PEAKS[17, 2] = 75.0
@@ -81,7 +86,7 @@ GENERAL = np.array([[0.3, 0.1, -0.2], [0.05, 0.5, 0.1], [0.2, -0.1, 0.4]])
 
 
 def test_rotation_vector_is_scipys():
-    turns = Turn.from_rotvec(np.random.default_rng(0).uniform(-1.5, 1.5, (50, 3)))
+    turns = ScipyRotation.from_rotvec(np.random.default_rng(0).uniform(-1.5, 1.5, (50, 3)))
     np.testing.assert_allclose(rotation_vector(turns.as_matrix()), turns.as_rotvec(), atol=1e-14)
 
 
@@ -119,7 +124,7 @@ def leaning(angle: float) -> np.ndarray:
 
 def turned(angle: float, yields=(0.1, 0.2, 0.3), axis="y") -> Pose:
     """Springs along the base's axes turned about one of them."""
-    Q = Turn.from_euler(axis, angle).as_matrix()
+    Q = ScipyRotation.from_euler(axis, angle).as_matrix()
     return yielding(Q @ np.diag(yields) @ Q.T, 0, 0, 0, controller=SPRINGS)
 
 

@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation as Turn
+from scipy.spatial.transform import Rotation as ScipyRotation
 from support.contact_records import CARTESIAN, TICKS, answered, pose, specification, spun, trial
 
 from bench.base.errors import BadMetric
@@ -24,7 +24,7 @@ from tasks.rotations import about, zyx
 def moving(seed: int) -> dict:
     draw = np.random.default_rng(seed)
     return {
-        "R": Turn.random(TICKS, rng=draw).as_matrix(),
+        "R": ScipyRotation.random(TICKS, rng=draw).as_matrix(),
         **{k: draw.normal(size=(TICKS, 3)) for k in ("omega", "moment")},
     }
 
@@ -74,8 +74,8 @@ ONCE_OUTSIDE[10] = (0.0, 0.0, 20.5)  # 2.5 %
 def test_a_tool_flat_on_a_plate_has_no_alignment_error():
     """The wrist's axis points down; how the hand's frame is drawn on it does not matter."""
     mount = zyx(0.3, -0.8, 1.1)
-    wrist = Turn.from_rotvec((math.pi - 0.2, 0.0, 0.0))
-    drawn = (wrist * Turn.from_quat(mount, scalar_first=True)).as_matrix()
+    wrist = ScipyRotation.from_rotvec((math.pi - 0.2, 0.0, 0.0))
+    drawn = (wrist * ScipyRotation.from_quat(mount, scalar_first=True)).as_matrix()
     flat = answered(
         trial(PRESSING, mount_wxyz=mount, scene_wxyz=about((1.0, 0.0, 0.0), -0.2)), R=np.tile(drawn, (TICKS, 1, 1))
     )

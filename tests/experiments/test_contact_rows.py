@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench.engines.contact_episode import OUTCOMES, WIDTH, Conditions, Ended
+from bench.engines.contact_episode import OUTCOMES, WIDTH, Conditions, EndedEpisode
 from bench.engines.metrics.contact_metric import Pose, response
 from bench.engines.metrics.measured_compliance import compliance
 from bench.engines.simulate_contact import run_contact as run
@@ -29,7 +29,7 @@ def rows():
     return frame("mine", EULER, PROBE, ARM, POSES[:3], CONDITIONS)
 
 
-def of_records(*ended: Ended) -> pd.Series:
+def of_records(*ended: EndedEpisode) -> pd.Series:
     """The row of a pose whose trials ended so."""
     given = POSES[0][: len(ended)]
     [row] = frame("mine", EULER, PROBE, ARM, (given,), CONDITIONS, lambda *_: iter(ended)).to_dict("records")
@@ -74,8 +74,12 @@ def test_every_outcome_has_its_rank():
 
 
 def test_row_has_the_worst_outcome_and_the_time_at_which_its_first_trial_failed():
-    ended = (Ended("done", record(50)), Ended("singular", record(3)), Ended("diverged", record(20)))
-    row = of_records(*ended, Ended("diverged", record(11)))
+    ended = (
+        EndedEpisode("done", record(50)),
+        EndedEpisode("singular", record(3)),
+        EndedEpisode("diverged", record(20)),
+    )
+    row = of_records(*ended, EndedEpisode("diverged", record(11)))
     assert row["outcome"] == "diverged"
     assert row["failure_time_s"] == pytest.approx(0.011)
     assert row["trials"] == 4
@@ -85,7 +89,9 @@ def test_row_has_the_worst_outcome_and_the_time_at_which_its_first_trial_failed(
 @pytest.mark.parametrize("value", [np.nan, np.inf, 1e200])
 @pytest.mark.parametrize("outcome", ["broken", "diverged"])
 def test_trial_that_broke_is_a_row_with_no_measured_rotation(outcome, ticks, value):
-    ended = [Ended("done", record(50))] * 5 + [Ended(outcome, record(ticks, value), "Nan, Inf or huge value in QACC")]
+    ended = [EndedEpisode("done", record(50))] * 5 + [
+        EndedEpisode(outcome, record(ticks, value), "Nan, Inf or huge value in QACC")
+    ]
     row = of_records(*ended)
     assert row["outcome"] == outcome
     assert row[C].isna().all()
@@ -111,7 +117,7 @@ def test_records_are_dropped_with_their_pose():
             made = record(50)
             alive.append(weakref.ref(made))
             most = max(most, sum(one() is not None for one in alive))
-            yield Ended("done", made)
+            yield EndedEpisode("done", made)
 
     assert len(frame("mine", EULER, PROBE, ARM, POSES[:8], CONDITIONS, counting)) == 8
     assert most <= 2 * len(POSES[0])

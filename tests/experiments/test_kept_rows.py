@@ -17,7 +17,7 @@ from bench.experiments.episode_rows import judged_columns
 from bench.experiments.experiment import rows_of
 from bench.experiments.kept_rows import kept
 from bench.experiments.request import Request
-from bench.experiments.rounding import CHANGE, NUDGE, OUTCOME_NUDGED, nudged, rerun_nudged
+from bench.experiments.rounding import NUDGE, OUTCOME_NUDGED, ROUNDING_CHANGE, nudged, rerun_nudged
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import find_contender
 from bench.law.kinds import UserFile
@@ -139,14 +139,14 @@ def judged(first, beside):
 def test_doubtful_row_is_judged_beside_its_start():
     found, asked = judged(row(), row())
     assert asked == [nudged(START, NUDGE)]
-    assert (found[OUTCOME_NUDGED], found[CHANGE]) == ("", 0.0)
+    assert (found[OUTCOME_NUDGED], found[ROUNDING_CHANGE]) == ("", 0.0)
 
 
 def test_row_far_from_any_singularity_is_not_judged_again():
     found, asked = judged(row(condition=10.0), row("stuck"))
     assert asked == []
     assert found[OUTCOME_NUDGED] == ""
-    assert np.isnan(found[CHANGE])
+    assert np.isnan(found[ROUNDING_CHANGE])
 
 
 def test_torque_far_beyond_the_rated_one_is_doubtful_too():
@@ -163,7 +163,7 @@ def test_torque_far_beyond_the_rated_one_is_doubtful_too():
     ],
 )
 def test_change_is_the_relative_one_of_numbers_above_rounding(first, beside, change):
-    assert judged(row(effort=first), row(effort=beside))[0][CHANGE] == change
+    assert judged(row(effort=first), row(effort=beside))[0][ROUNDING_CHANGE] == change
 
 
 def test_run_marks_what_passes_a_singularity_and_nothing_in_the_clear():
@@ -182,7 +182,7 @@ def test_run_marks_what_passes_a_singularity_and_nothing_in_the_clear():
         )
     )
     found = pd.concat([rows_of(plan.request, unit) for unit in plan.of("arm")])
-    doubtful = found[CHANGE].notna()
+    doubtful = found[ROUNDING_CHANGE].notna()
     assert not doubtful[found["start_set"] == "clear"].any()
     assert doubtful[found["start_set"] == "wrist"].any()
-    assert (found.loc[doubtful & (found[OUTCOME_NUDGED] == ""), CHANGE] > 0.0).all()
+    assert (found.loc[doubtful & (found[OUTCOME_NUDGED] == ""), ROUNDING_CHANGE] > 0.0).all()

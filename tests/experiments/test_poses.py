@@ -6,7 +6,7 @@ import math
 import mujoco
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation as Turn
+from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
 from support.buffers import state_of
 
@@ -40,7 +40,9 @@ def of_zyx(frame, *sets):
 def x_of(model, q):
     """Position and Z-Y-X angles of the tool: MuJoCo's frame, scipy's angles."""
     tool = state_of(model, q).site("tool")
-    return np.concatenate((tool.xpos, Turn.from_matrix(tool.xmat.reshape(3, 3)).as_euler("ZYX")))
+    return np.concatenate(
+        (tool.xpos, ScipyRotation.from_matrix(tool.xmat.reshape(3, 3)).as_euler("ZYX"))
+    )
 
 
 @pytest.mark.parametrize("name", ARMS)

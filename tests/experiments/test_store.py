@@ -155,7 +155,7 @@ RUN = ("run", *TINY, "--engine", "reference")
 HOLD = """
 import pathlib, sys
 from bench.base import lock
-with lock.held(pathlib.Path(sys.argv[1])):
+with lock.lock_folder(pathlib.Path(sys.argv[1])):
     print("held", flush=True)
     sys.stdin.read()
 """
@@ -191,7 +191,7 @@ def test_folder_that_cannot_be_locked_is_used_and_said_so(finished, capsys):
     def unsupported(*_):
         raise OSError(errno.ENOLCK, os.strerror(errno.ENOLCK))
 
-    with lock.held(finished, flock=unsupported):
+    with lock.lock_folder(finished, flock=unsupported):
         said = capsys.readouterr().err
     assert said.startswith(f"{finished}: cannot be locked (No locks available)")
     assert len(said.splitlines()) == 1

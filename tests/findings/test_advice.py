@@ -141,7 +141,9 @@ class MadeUp(Trials):
     def run(self, law, count=FIRST):
         zeros = np.zeros(count)
         drawn = {"time": self.made[law][:count], "turned_away": zeros, "peak": zeros, "effort": zeros}
-        trial = module.Trial(self.known[law], self.at, {**drawn, "overshoot": zeros}, int(law in self.held), 0)
+        trial = module.LawTrial(
+            self.known[law], self.at, {**drawn, "overshoot": zeros}, int(law in self.held), 0
+        )
         self.by_law[law] = trial
         return trial
 

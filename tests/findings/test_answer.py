@@ -80,11 +80,11 @@ def test_law_that_nothing_beats_and_is_simplest_is_advised(times, law, tied):
 
 
 @pytest.mark.parametrize("column", ["lost", "stuck", "unwound"])
-def test_law_that_fails_a_requirement_is_not_asked(column):
+def test_law_that_fails_a_requirement_is_not_eligible(column):
     values = of_times(1.0, 2.0, 3.0)
     compared = made_up(values, **{column: [1.0, 0.0, 0.0]})
     verdict = decide(compared.rows, OF_FIRST_ORDER, compared.pairs)
-    assert (verdict.law, verdict.asked) == (MIDDLE, 2)
+    assert (verdict.law, verdict.eligible) == (MIDDLE, 2)
 
 
 def test_overshoot_counts_for_arms_and_was_not_measured_of_first_order_laws():
@@ -210,11 +210,11 @@ def test_counts_of_velocity_laws_are_what_their_rows_say(column):
     assert dict(rows[column]) == pytest.approx(dict(expected.loc[rows.index, column]))
 
 
-def test_law_that_is_dead_and_law_that_unwinds_are_not_asked():
-    asked = velocities().qualify()
-    assert not {"rotation-matrix", "quaternion-unwinding"} & set(asked)
-    assert "rotation-vector" in asked
-    assert decide_for(VELOCITY, REFERENCE).asked == len(asked)
+def test_law_that_is_dead_and_law_that_unwinds_are_not_eligible():
+    eligible = velocities().qualify()
+    assert not {"rotation-matrix", "quaternion-unwinding"} & set(eligible)
+    assert "rotation-vector" in eligible
+    assert decide_for(VELOCITY, REFERENCE).eligible == len(eligible)
 
 
 def test_run_that_commands_no_robot_by_velocities_is_no_evidence(tmp_path):

@@ -14,7 +14,7 @@ from support.sprung_arm import STEPS, Spring, SprungArm
 import tasks
 from bench.base.errors import BadModel, Incompatible
 from bench.findings.selection.arm_question import (
-    Question,
+    ArmQuestion,
     find_bodies,
     find_dampings,
     find_range,
@@ -52,7 +52,7 @@ def write(folder, name, text):
 def test_limits_of_damping_and_stiffness_are_those_of_the_simulated_arm(felt, name, timing):
     period, late = TIMINGS[timing]
     arm = SprungArm(load_arm(name), period, late)
-    question = Question(50.0, period=period, delay=late * period / STEPS)
+    question = ArmQuestion(50.0, period=period, delay=late * period / STEPS)
     lightest = int(np.argmin(felt[name].moments[:, 0]))
     for place in (lightest, 3):
         pose, inertia = felt[name].poses[place], felt[name].moments[place, 0]
@@ -67,7 +67,7 @@ def test_limits_of_damping_and_stiffness_are_those_of_the_simulated_arm(felt, na
 def test_least_damping_is_that_of_the_simulated_arm(felt, name):
     period, late = TIMINGS["500 Hz, 3 ms"]
     arm = SprungArm(load_arm(name), period, late)
-    question = Question(100.0, period=period, delay=late * period / STEPS)
+    question = ArmQuestion(100.0, period=period, delay=late * period / STEPS)
     pose, inertia = felt[name].lightest, felt[name].least
     low, _ = find_dampings(question, inertia)
     assert not arm.is_stable(pose, Spring(100.0, (1.0 - WITHIN) * low), ticks=2000)
@@ -78,7 +78,7 @@ def test_least_damping_is_that_of_the_simulated_arm(felt, name):
 def test_greatest_damping_is_the_same_where_a_spring_holds_the_position(felt, name):
     period, late = TIMINGS["1 kHz"]
     arm = SprungArm(load_arm(name), period, late)
-    _, high = find_dampings(Question(50.0, period=period), felt[name].least)
+    _, high = find_dampings(ArmQuestion(50.0, period=period), felt[name].least)
     # 500 N/m, critically damped for a hand of 4 kg.
     held = Spring(50.0, high, 500.0, 2.0 * math.sqrt(500.0 * 4.0))
     assert arm.is_stable(felt[name].lightest, held._replace(damping=(1.0 - WITHIN) * high))
@@ -86,7 +86,7 @@ def test_greatest_damping_is_the_same_where_a_spring_holds_the_position(felt, na
 
 
 def test_what_is_stable_at_the_least_inertia_is_stable_at_every_other(felt):
-    question = Question(50.0, period=2e-3, delay=3e-3)
+    question = ArmQuestion(50.0, period=2e-3, delay=3e-3)
     for name in ARMS:
         limits = find_range(question, felt[name].least, 5.0)
         for inertia in np.geomspace(felt[name].least, felt[name].most, 12):
@@ -98,7 +98,7 @@ def test_what_is_stable_at_the_least_inertia_is_stable_at_every_other(felt):
 
 def test_limits_without_delay_are_those_of_jurys_criterion():
     # The step of a period has det < 1 where D > K T/2, and no eigenvalue below -1 where D < 2 J/T.
-    limits = find_range(Question(50.0), INERTIA, 10.0)
+    limits = find_range(ArmQuestion(50.0), INERTIA, 10.0)
     assert limits.low == pytest.approx(50.0 * 1e-3 / 2.0, rel=1e-6)
     assert limits.high == pytest.approx(2.0 * INERTIA / 1e-3, rel=1e-6)
     assert limits.stiffness == pytest.approx(2.0 * 10.0 / 1e-3, rel=1e-6)
@@ -106,7 +106,7 @@ def test_limits_without_delay_are_those_of_jurys_criterion():
 
 
 def test_stiffness_without_any_stable_damping_has_no_limits_of_damping():
-    limits = find_range(Question(5e4, delay=5e-3), INERTIA, math.nan)
+    limits = find_range(ArmQuestion(5e4, delay=5e-3), INERTIA, math.nan)
     assert math.isnan(limits.low)
     assert math.isnan(limits.high)
     assert math.isnan(limits.stiffness)
@@ -160,7 +160,7 @@ def test_inertias_hardly_depend_on_the_draw(felt, name):
 
 
 def test_ends_of_kp_are_bodies_between_the_ends_of_inertia(felt):
-    question = Question(50.0, 10.0, 12.0, delay=2e-3, spin=1.0)
+    question = ArmQuestion(50.0, 10.0, 12.0, delay=2e-3, spin=1.0)
     low, high = felt["panda"].ends
     light, heavy = find_bodies(question, felt["panda"])
     # s is at most the map's 0.5: moments from half to one and a half times the mean.
@@ -177,13 +177,13 @@ def test_ends_of_kp_are_bodies_between_the_ends_of_inertia(felt):
 
 
 def test_bodies_without_a_damping_have_the_ratio_one(felt):
-    for body in find_bodies(Question(50.0), felt["ur5e"]):
+    for body in find_bodies(ArmQuestion(50.0), felt["ur5e"]):
         assert body.at.zeta == 1.0
         assert math.isinf(body.at.bound)
 
 
 def test_proposed_damping_is_critical_for_heavy_axes_unless_light_ones_cannot_bear_it(felt):
-    quick, late = Question(50.0), Question(50.0, delay=5e-3)
+    quick, late = ArmQuestion(50.0), ArmQuestion(50.0, delay=5e-3)
     heavy = felt["ur5e"].ends[1]
     assert quick.ratio(heavy, propose_damping(quick, felt["ur5e"])) == pytest.approx(1.0)
     held_back = propose_damping(late, felt["ur5e"])

@@ -11,7 +11,7 @@ from bench.experiments.request import Request
 from bench.experiments.tables.run import Run, with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import why
-from bench.findings.judged import judged
+from bench.findings.judge_law import judge_laws
 from bench.law.contenders.described_law import described
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import contenders_of, find_contender
@@ -144,7 +144,7 @@ def judge_units(folder, text):
     """Return the judgement of a law's text, and the experiments of the units that were run for it."""
     path, run = folder / "mine.py", []
     path.write_text(text, encoding="utf-8")
-    [one] = judged((described(path),), report=lambda unit: run.append(unit.experiment))
+    [one] = judge_laws((described(path),), report=lambda unit: run.append(unit.experiment))
     return one, run
 
 
@@ -153,7 +153,7 @@ def test_judge_runs_no_episode_where_a_cause_is_known(tmp_path, name):
     text, fault = CAUSES[name]
     judgement, run = judge_units(tmp_path, text)
     assert judgement.faults == [fault]
-    assert "No episode was run" in judgement.said[-1].text
+    assert "No episode was run" in judgement.sentences[-1].text
     assert run == ["command-field"]
 
 
@@ -161,8 +161,8 @@ def test_judge_tries_no_perturbation_of_a_law_that_settles_nothing(tmp_path):
     undamped = of_quaternion("w, v[0], v[1], v[2]", damping="0.0 * gains.kv")
     judgement, run = judge_units(tmp_path, undamped)
     assert set(run) == {"command-field", "free-body"}
-    assert "No perturbation was tried" in judgement.said[-1].text
-    assert not any("Thresholds" in one.text for one in judgement.said)
+    assert "No perturbation was tried" in judgement.sentences[-1].text
+    assert not any("Thresholds" in one.text for one in judgement.sentences)
 
 
 def test_judge_tries_perturbations_of_a_law_that_settles(tmp_path):

@@ -191,7 +191,7 @@ def test_claim_that_a_run_lacks_is_not_tested_and_says_why(monkeypatch):
 
 
 def test_counts_of_words_are_told_in_their_order():
-    assert claims.told(one.word for one in EVERY) == (
+    assert claims.format_tally(one.word for one in EVERY) == (
         "2 hold, 1 does not hold, 1 depends on the gains, 1 is not tested"
     )
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation as Turn
+from scipy.spatial.transform import Rotation as ScipyRotation
 from support.in_contact import ARMS, COORDINATES, hand
 from support.states import of_scipy
 
@@ -143,7 +143,13 @@ def test_without_force_feedback_the_closed_form_is_a_referees_measurement_with_c
 def test_mobility_is_what_mujocos_dynamics_make_of_moments(arm):
     found = np.zeros((3, 3))
     for k, unit in enumerate(np.eye(3)):
-        at = hand(arm, tasks.arm(arm).home, np.zeros(tasks.arm(arm).joints), Turn.identity(), (0.0, 0.0, 0.0, *unit))
+        at = hand(
+            arm,
+            tasks.arm(arm).home,
+            np.zeros(tasks.arm(arm).joints),
+            ScipyRotation.identity(),
+            (0.0, 0.0, 0.0, *unit),
+        )
         found[:, k] = at.acceleration(at.fg)[3:]
     A = theory.mobility(tasks.arm(arm))
     np.testing.assert_allclose(found, A, rtol=0.0, atol=1e-9 * np.linalg.norm(A))
@@ -186,7 +192,7 @@ def test_springs_along_euler_angles_are_conditioned_as_predicted(beta):
         (hybrid("hybrid-unconverted", "inverse", EULER), IDENTITY),  # for moments that are not converted
         (
             AT_ITS_POLE,
-            of_scipy(Turn.random(rng=np.random.default_rng(4))),
+            of_scipy(ScipyRotation.random(rng=np.random.default_rng(4))),
         ),  # of Z-Y-Z angles seen from the goal, which is their pole
         (SPRINGS_OF_EULER, from_quaternion(on_pole(1, 0.7))),  # where the coordinates have no rates
     ],

@@ -9,7 +9,7 @@ from support import collocation
 
 from bench.findings.floor import (
     Grid,
-    Start,
+    ReducedStart,
     find_coordinates,
     find_floor,
     find_start,
@@ -142,7 +142,7 @@ def test_spin_to_the_goal_has_the_cosine_minus_one():
 def test_coordinates_lead_back_to_the_start():
     angle = np.array([0.1, 1.0, 3.0, 3.0])
     speed = np.array([0.0, 2.0, 0.3, 7.0])
-    start = Start(angle, speed, np.array([0.2, -1.0, 1.0, 0.0]))
+    start = ReducedStart(angle, speed, np.array([0.2, -1.0, 1.0, 0.0]))
     back = find_start(*find_coordinates(start))
     for before, after in zip(start, back, strict=True):
         assert after == pytest.approx(before, abs=1e-7)

@@ -6,7 +6,7 @@ import shlex
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from scipy.spatial.transform import Rotation as Turn
+from scipy.spatial.transform import Rotation as ScipyRotation
 
 from bench.cli import claims as command
 from bench.cli import run as run_command
@@ -34,7 +34,7 @@ STEP_S = 1e-6
 def random_states(seed, count=20):
     """Return random turns from the body to the goal at zero rotation, and rates [rad/s]."""
     draw = np.random.default_rng(seed)
-    bodies = Turn.random(count, random_state=seed)
+    bodies = ScipyRotation.random(count, random_state=seed)
     return list(zip(bodies, draw.normal(size=(count, 3)) * 5.0, strict=True))
 
 
@@ -51,7 +51,7 @@ def sliding_variable(body, omega, rates):
 
 def test_turn_about_an_axis_is_the_one_of_scipy():
     for axis in probe.AXES:
-        quat = Turn.from_rotvec(2.0 * np.array(axis)).as_quat(scalar_first=True)
+        quat = ScipyRotation.from_rotvec(2.0 * np.array(axis)).as_quat(scalar_first=True)
         assert probe.turn_about(axis, 2.0).quat_wxyz == pytest.approx(tuple(quat))
 
 
@@ -60,7 +60,7 @@ def test_law_makes_the_sliding_variable_decay_in_the_base_frame(gains):
     rates = probe.rates_of(gains)
     for body, omega in random_states(1):
         u = command_of("sliding", from_quaternion(tuple(body.as_quat(scalar_first=True))), tuple(omega), gains=gains)
-        later = Turn.from_rotvec(STEP_S * omega) * body
+        later = ScipyRotation.from_rotvec(STEP_S * omega) * body
         s, s_later = sliding_variable(body, omega, rates), sliding_variable(later, omega + STEP_S * u, rates)
         assert (s_later - s) / STEP_S == pytest.approx(-rates.approach * s, abs=2e-2)
 
@@ -71,7 +71,7 @@ def test_law_in_the_body_frame_makes_its_variable_decay_there():
     for body, omega in random_states(2):
         R = from_quaternion(tuple(body.as_quat(scalar_first=True).tolist()))
         u = np.array(IN_BODY_FRAME.law(R, tuple(omega.tolist()), Goal(IDENTITY), gains))
-        later = Turn.from_rotvec(STEP_S * omega) * body
+        later = ScipyRotation.from_rotvec(STEP_S * omega) * body
         s = body.inv().apply(sliding_variable(body, omega, rates))
         s_later = later.inv().apply(sliding_variable(later, omega + STEP_S * u, rates))
         assert (s_later - s) / STEP_S == pytest.approx(-rates.approach * s, abs=2e-2)

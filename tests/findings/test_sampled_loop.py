@@ -13,7 +13,14 @@ from bench.experiments.situations import mapped_laws
 from bench.findings.theory.bang_bang import angle_of_share, least_time
 from bench.findings.theory.closed_form import linear_settling
 from bench.findings.theory.robustness_theory import delay_margin
-from bench.findings.theory.sampled_loop import Loop, find_limits, is_stable, mode_time, settling_time, spectral_radius
+from bench.findings.theory.sampled_loop import (
+    SampledLoop,
+    find_limits,
+    is_stable,
+    mode_time,
+    settling_time,
+    spectral_radius,
+)
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import AT_REST, Gains, Goal, Tuning
 from bench.law.so3 import IDENTITY, from_quaternion
@@ -23,9 +30,9 @@ from tasks.rotations import about
 from tasks.verdict import SETTLED
 
 
-def at_one(kv: float, delay: float) -> Loop:
+def at_one(kv: float, delay: float) -> SampledLoop:
     """Return a critically damped loop of period 1."""
-    return Loop(kp=0.25 * kv * kv, kv=kv, period=1.0, delay=delay)
+    return SampledLoop(kp=0.25 * kv * kv, kv=kv, period=1.0, delay=delay)
 
 
 @pytest.mark.parametrize(
@@ -48,8 +55,12 @@ def test_limit_of_an_exactly_held_loop_is_the_known_one(delay, limit):
 
 def test_limit_without_delay_is_that_of_jury():
     # Kv T < 2 and Kp T < 2 Kv
-    assert find_limits(Loop(kp=1e-6, kv=3.0, period=1.0)).kv_high == pytest.approx(2.0, rel=1e-5)
-    assert find_limits(Loop(kp=1.0, kv=0.1, period=1.0)).kv_low == pytest.approx(0.5, rel=1e-6)
+    assert find_limits(SampledLoop(kp=1e-6, kv=3.0, period=1.0)).kv_high == pytest.approx(
+        2.0, rel=1e-5
+    )
+    assert find_limits(SampledLoop(kp=1.0, kv=0.1, period=1.0)).kv_low == pytest.approx(
+        0.5, rel=1e-6
+    )
 
 
 def test_light_axis_is_the_first_to_be_lost_by_a_high_gain():
@@ -60,19 +71,19 @@ def test_light_axis_is_the_first_to_be_lost_by_a_high_gain():
 
 
 def test_limit_of_a_delay_of_many_periods_is_the_margin_of_the_continuous_loop():
-    loop = Loop(kp=100.0, kv=20.0, period=1e-4, delay=0.3)
+    loop = SampledLoop(kp=100.0, kv=20.0, period=1e-4, delay=0.3)
     # half a period of the hold is a delay, too
     assert find_limits(loop).delay + 0.5e-4 == pytest.approx(delay_margin(100.0, 20.0), rel=1e-3)
 
 
 @pytest.mark.parametrize("zeta", [0.5, 1.0, 2.0])
 def test_linear_loop_that_is_sampled_fast_settles_as_the_continuous_one(zeta):
-    loop = Loop(kp=100.0, kv=20.0 * zeta, period=1e-4)
+    loop = SampledLoop(kp=100.0, kv=20.0 * zeta, period=1e-4)
     assert settling_time(loop, 5.0) == pytest.approx(linear_settling(100.0, 20.0 * zeta), abs=5e-3)
 
 
 def test_loop_that_is_hardly_damped_takes_the_time_of_its_envelope():
-    loop = Loop(kp=100.0, kv=0.5, period=1e-5)
+    loop = SampledLoop(kp=100.0, kv=0.5, period=1e-5)
     # exp(-kv t/2) = 0.02
     assert settling_time(loop, 5.0) == pytest.approx(2.0 * math.log(50.0) / 0.5, rel=0.01)
     assert mode_time(spectral_radius(loop), loop.period) == pytest.approx(15.65, rel=0.01)
@@ -93,7 +104,7 @@ SIMULATED = [
 @pytest.mark.parametrize("law", ["mrp-memory", "hybrid", "rotation-matrix"])
 @pytest.mark.parametrize(("period", "delay", "inertia", "unevenness", "zeta"), SIMULATED)
 def test_body_near_its_goal_settles_below_the_limit_and_not_above(law, period, delay, inertia, unevenness, zeta):
-    beyond = Loop(400.0**2, 2.0 * zeta * 400.0, period, delay, inertia, unevenness)
+    beyond = SampledLoop(400.0**2, 2.0 * zeta * 400.0, period, delay, inertia, unevenness)
     limit = find_limits(beyond).kv
     assert 1.0 < limit < beyond.kv
     uneven = (1.0 - unevenness, 1.0, 1.0 + unevenness)
@@ -112,7 +123,7 @@ def test_body_near_its_goal_settles_below_the_limit_and_not_above(law, period, d
 
 
 def test_response_has_the_settling_time_of_the_simulators_small_errors():
-    loop = Loop(kp=100.0, kv=14.0, period=0.02, delay=0.03)
+    loop = SampledLoop(kp=100.0, kv=14.0, period=0.02, delay=0.03)
     condition = Condition(period_s=0.02, delay_s=0.03)
     limits = Limits(Gains(loop.kp, loop.kv), 1e-3, 5000, 1)
     [row] = run_disturbed(find_contender("hybrid"), [Start("", about((0.0, 0.6, 0.8), 0.01))], condition, limits, ())

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 import pytest
-from scipy.spatial.transform import Rotation as Turn
+from scipy.spatial.transform import Rotation as ScipyRotation
 from support.claim_tables import compliances
 from support.tables import decided, judged
 
@@ -11,7 +11,7 @@ from bench.experiments.probes import coordinates, variables
 from bench.findings.claims import side_by_side
 from bench.findings.claims.verdict import Word
 
-TURNED = Turn.from_euler("z", 0.7).as_matrix()[None]
+TURNED = ScipyRotation.from_euler("z", 0.7).as_matrix()[None]
 TRIO = (0, 1, 3)
 """n_x, n_y and o_x."""
 
@@ -20,7 +20,10 @@ def test_divisor_of_a_turn_about_z_is_its_sine_and_no_column_can_be_eliminated()
     # det [[2c, 2s, 0], [0, 0, -2s], [-s, c, c]] = 4 s (c^2 + s^2)
     assert variables.divisor(TURNED, TRIO)[0] == pytest.approx(np.sin(0.7), abs=1e-15)
     assert variables.product(TURNED, TRIO)[0] == pytest.approx(np.sin(0.7), abs=1e-15)
-    assert np.abs(variables.divisor(Turn.random(5, rng=0).as_matrix(), (0, 1, 2))).max() < 1e-15
+    assert (
+        np.abs(variables.divisor(ScipyRotation.random(5, rng=0).as_matrix(), (0, 1, 2))).max()
+        < 1e-15
+    )
 
 
 def test_second_matrix_with_the_same_elements_is_a_rotation():
@@ -42,7 +45,9 @@ def test_acceleration_of_the_angles_is_that_of_a_body_that_spins_freely():
     E, omega, h = np.array((0.4, 0.6, -0.9)), np.array((0.5, -0.3, 0.8)), 1e-3
 
     def angles(t):
-        return (Turn.from_rotvec(omega * t) * Turn.from_euler("ZYX", E)).as_euler("ZYX")
+        return (ScipyRotation.from_rotvec(omega * t) * ScipyRotation.from_euler("ZYX", E)).as_euler(
+            "ZYX"
+        )
 
     rates = (angles(h) - angles(-h)) / (2 * h)
     expected = (angles(h) - 2 * angles(0.0) + angles(-h)) / h**2
@@ -71,7 +76,7 @@ def test_force_control_is_judged_by_force_moment_and_rotation(force, moment, tur
 
 def test_planes_of_compliance_are_as_far_apart_as_their_normals():
     flat = np.diag([1.0, 1.0, 0.0])[None]
-    tilted = side_by_side.turned(flat, Turn.from_euler("y", 0.3).as_matrix()[None])
+    tilted = side_by_side.turned(flat, ScipyRotation.from_euler("y", 0.3).as_matrix()[None])
     assert side_by_side.planes_apart(tilted, flat) == pytest.approx([0.3], abs=1e-12)
     assert np.isnan(side_by_side.planes_apart(np.full((1, 3, 3), np.nan), flat)).all()
 

@@ -17,7 +17,7 @@ from bench.findings.claims.standing import (
     price_of_a_call,
     times_of,
 )
-from bench.findings.on_arms import best, passed, told_apart
+from bench.findings.on_arms import best, differs_significantly, passed
 
 FLOP, CALL = 0.02, 1.2
 COUNTS = {"a": (10, 0), "b": (40, 0), "c": (30, 3), "d": (60, 6), "e": (70, 1), "f": (90, 2)}
@@ -127,7 +127,7 @@ def test_each_measure_holds_those_before_it(columns, expected):
 def test_two_are_told_apart_by_a_fair_coin(ones, others, expected):
     one = pd.Series([True] * ones + [False] * others + [True, False] * 20)
     other = pd.Series([False] * ones + [True] * others + [True, False] * 20)
-    assert told_apart(one, other) is expected
+    assert differs_significantly(one, other) is expected
 
 
 def test_ties_have_no_winner_and_the_worse_are_left_out():

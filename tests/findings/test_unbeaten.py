@@ -25,7 +25,7 @@ from bench.experiments.tables.schema import RESULTS
 from bench.findings.selection import reset, sensitivity, unbeaten, words
 from bench.findings.selection.pairs import compare_times, find_slower
 from bench.findings.selection.regions import find_default, find_regions
-from bench.findings.selection.unbeaten import Rival, Share, Standing
+from bench.findings.selection.unbeaten import Rival, SituationShare, SituationStanding
 from tasks.situation import COORDINATES
 
 DEFAULT = widest()[0][0]
@@ -57,7 +57,7 @@ def test_share_of_a_region_is_the_share_among_the_qualified():
 
 
 def test_interval_of_a_share_is_exact():
-    low, high = Share(7, 30).interval
+    low, high = SituationShare(7, 30).interval
     assert (low, high) == pytest.approx((beta.ppf(0.025, 7, 24), beta.ppf(0.975, 8, 23)))
 
 
@@ -170,7 +170,7 @@ def test_laws_of_ours_are_in_neither_set():
 
 
 def test_law_that_fails_a_requirement_is_not_unbeaten():
-    free = Standing(True, 0, (Rival("gibbs", 0.1, False),))
+    free = SituationStanding(True, 0, (Rival("gibbs", 0.1, False),))
     assert free.is_unbeaten(among_all=False)
     assert not free.is_unbeaten(among_all=True)
     assert not free._replace(meets=False, rivals=()).is_unbeaten(among_all=False)

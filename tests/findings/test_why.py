@@ -9,7 +9,7 @@ from support.user_law import law_text
 from bench.experiments.experiment import rows_of
 from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.judged import ENGINE, START_SETS, judgement, plan_of
+from bench.findings.judge_law import ENGINE, START_SETS, describe_law, plan_of
 from bench.findings.why import ends, sentences
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import contenders_of, find_contender
@@ -78,7 +78,11 @@ def found(tmp_path_factory):
                 parts[one.name, unit.experiment].append(rows_of(plan.request, unit))
         [field] = parts[one.name, "command-field"]
         moves = (one.name, "free-body") in parts
-        said = judgement(one, parts).said if moves else sentences(field, one.regulator.property)
+        said = (
+            describe_law(one, parts).sentences
+            if moves
+            else sentences(field, one.regulator.property)
+        )
         return {each.fault: each.text for each in said}, field.set_index("finding")
 
     return {name: look(name) for name in FAULTY}

@@ -92,6 +92,25 @@ def test_imports_of_before_the_public_face_are_refused_with_the_line_to_write(ca
     assert line.endswith("write: from bench.law import Law, cross, dot, kernel, sqrt")
 
 
+def test_former_name_of_a_field_is_accepted_with_a_note(capsys, tmp_path):
+    path = written(tmp_path, with_fields("later=True"))
+    assert described(path).is_beyond_the_paper
+    said = bench(capsys, "list", "regulators", "--law", path)
+    assert said.code == 0
+    assert said.err.count("write is_beyond_the_paper= in place of later=") == 1
+
+
+def test_law_file_with_the_names_of_today_has_no_note(capsys, tmp_path):
+    said = bench(
+        capsys,
+        "list",
+        "regulators",
+        "--law",
+        written(tmp_path, with_fields("is_beyond_the_paper=True")),
+    )
+    assert (said.code, said.err) == (0, "")
+
+
 def test_missing_law_file_is_refused(capsys, finished, tmp_path):
     assert "there is no such file" in refused_run(capsys, finished, "--law", tmp_path / "gone.py")
 

@@ -8,7 +8,7 @@ from support.user_law import DAMPER, law_text
 
 from bench.base.errors import BadLaw, BadResults, Incompatible, UnknownWord
 from bench.cli import main
-from bench.findings.judgement import Judgement, Said
+from bench.findings.judgement import Judgement, Sentence
 from bench.findings.subjects import SentenceSubject
 from bench.regression.revisions import gates, summary
 from bench.regression.revisions.commits import (
@@ -60,10 +60,12 @@ def means(finished):
                 raise faults
             is_head = laws[0].origin.endswith("user/law.py")
             named = faults if is_head else base_faults
-            said = tuple(Said("It shakes.", SentenceSubject.JUDGE, fault) for fault in named)
+            said = tuple(Sentence("It shakes.", SentenceSubject.JUDGE, fault) for fault in named)
             return [Judgement("braking", said, (), False)]
 
-        return gates.Means(lambda side, report: contextlib.nullcontext(finished), compare_times, judge)
+        return gates.GateFunctions(
+            lambda side, report: contextlib.nullcontext(finished), compare_times, judge
+        )
 
     return make
 
@@ -73,7 +75,7 @@ def states(said):
 
 
 def test_gates_of_a_law_that_is_as_before_all_pass(user, means):
-    said = gates.compare_revisions("HEAD", None, (user,), means=means())
+    said = gates.compare_revisions("HEAD", None, (user,), functions=means())
     assert states(said) == dict.fromkeys(("exact", "operations", "faults", "time"), "passed")
     assert (said.findings, said.head) == ([], "working tree")
     assert "| braking | 1.000 \\[0.900, 1.100\\] | 0.5 | same |" in summary.write_markdown(said)
@@ -89,7 +91,7 @@ def test_equal_sources_are_timed_only_if_a_commit_is_compared_with_itself(tmp_pa
 
 def test_law_that_is_slower_twice_is_a_regression(user, means):
     slower = Timed("braking", 1.3, 1.2, 1.4, 1e-9, 60, "slower", True)
-    said = gates.compare_revisions("HEAD", None, (user,), means=means(slower))
+    said = gates.compare_revisions("HEAD", None, (user,), functions=means(slower))
     assert [one.says[:51] for one in said.regressions] == ["braking is slower: a tick takes 1.30 times as long "]
     assert states(said)["time"] == "failed"
 
@@ -99,22 +101,24 @@ def test_law_that_is_slower_twice_is_a_regression(user, means):
     [(0, "skipped", "base is too old for it: no timing"), (1, "failed", "the law cannot be timed: no timing")],
 )
 def test_side_that_cannot_be_timed_is_skipped_as_base_and_a_regression_as_head(user, means, at, state, says):
-    said = gates.compare_revisions("HEAD", None, (user,), means=means(SideFailed(at, "no timing")))
+    said = gates.compare_revisions(
+        "HEAD", None, (user,), functions=means(SideFailed(at, "no timing"))
+    )
     assert (said.gates[-1].state, said.gates[-1].says) == (state, says)
     assert len(said.regressions) == at
 
 
 def test_law_that_base_lacks_is_judged_alone_and_one_that_head_lacks_is_a_mistake(user, means):
-    said = gates.compare_revisions("HEAD~1", None, (user,), means=means(faults=("chatter",)))
+    said = gates.compare_revisions("HEAD~1", None, (user,), functions=means(faults=("chatter",)))
     assert states(said) == {"exact": "skipped", "operations": "skipped", "faults": "failed", "time": "skipped"}
     with pytest.raises(BadResults, match="none of the --law files is there"):
-        gates.compare_revisions("HEAD", "HEAD~1", (user,), means=means())
+        gates.compare_revisions("HEAD", "HEAD~1", (user,), functions=means())
 
 
 def test_law_that_base_cannot_load_is_judged_alone(user, means):
     commit(user.parent, "law.py", "REGULATOR = None\n")
     user.write_text(LAW)
-    said = gates.compare_revisions("HEAD", None, (user,), means=means())
+    said = gates.compare_revisions("HEAD", None, (user,), functions=means())
     assert "base has no such law, or it does not load" in said.gates[0].says
 
 
@@ -128,20 +132,24 @@ def test_law_that_base_cannot_load_is_judged_alone(user, means):
 )
 def test_fault_that_base_has_not_is_a_regression(user, means, base, head, verdicts, state):
     user.write_text(LAW + "# another\n")
-    said = gates.compare_revisions("HEAD", None, (user,), means=means(faults=head, base_faults=base))
+    said = gates.compare_revisions(
+        "HEAD", None, (user,), functions=means(faults=head, base_faults=base)
+    )
     assert [one.verdict for one in said.findings] == verdicts
     assert states(said)["faults"] == state
     assert ("- It shakes. (appendix-method)" in summary.write_markdown(said)) == bool(head)
 
 
 def test_law_that_cannot_be_judged_is_a_regression(user, means):
-    said = gates.compare_revisions("HEAD", None, (user,), means=means(faults=BadLaw("it cannot be compiled")))
+    said = gates.compare_revisions(
+        "HEAD", None, (user,), functions=means(faults=BadLaw("it cannot be compiled"))
+    )
     assert [(one.gate, one.says) for one in said.regressions] == [("faults", "it cannot be compiled")]
 
 
 def test_runs_of_two_schemas_are_a_regression_and_no_mistake(user, means, finished):
     (finished / "episodes.parquet").unlink()
-    [found] = gates.compare_revisions("HEAD", None, (user,), means=means()).regressions
+    [found] = gates.compare_revisions("HEAD", None, (user,), functions=means()).regressions
     assert found.says.startswith("the schema differs: ")
     assert "episodes.parquet" in found.says
 

@@ -6,8 +6,8 @@ import pytest
 
 from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.perturbed import Threshold, Way
-from bench.findings.selection.regions import Verdict
+from bench.findings.perturbed import Direction, Threshold
+from bench.findings.selection.regions import RuleVerdict
 from bench.findings.selection.run_rows import compare_run
 from bench.findings.selection.words import describe_lacks, standing
 from report.figures.arms import arms
@@ -51,13 +51,16 @@ def plant_arm(excess):
 
 def plant_thresholds(*held):
     """List the perturbations along which thresholds of laws differ."""
-    each = {law: {Way("delay"): Threshold(one, np.nan, np.nan)} for law, one in zip("ab", held, strict=True)}
+    each = {
+        law: {Direction("delay"): Threshold(one, np.nan, np.nan)}
+        for law, one in zip("ab", held, strict=True)
+    }
     return [way.axis for way in robustness.differing(each)]
 
 
-def plant_decision(tied, asked):
+def plant_decision(tied, eligible):
     """State whether the advised law is alone."""
-    return standing(Verdict("a", tied, asked=asked), str)
+    return standing(RuleVerdict("a", tied, eligible=eligible), str)
 
 
 def plant_loops(**columns):

@@ -8,7 +8,7 @@ import pytest
 from bench.law.contenders.registry import contenders
 from bench.law.display import COLOURS, LINES
 from report.figures.kit import html, style
-from report.figures.kit.html import Table
+from report.figures.kit.html import PageTable
 from report.figures.kit.inline import Picture, responsive_picture
 
 
@@ -84,7 +84,11 @@ def test_picture_is_the_same_bytes_every_time_and_leaves_the_style_of_others_alo
 
 
 def test_table_writes_its_columns_in_their_order_with_their_formats_numbers_right_and_words_left():
-    rows = Table("Law | Settled [%]:.1f | Error | k | n | rest", {"Error": lambda value: f"<{value}>"}, words=["k"])
+    rows = PageTable(
+        "Law | Settled [%]:.1f | Error | k | n | rest",
+        {"Error": lambda value: f"<{value}>"},
+        words=["k"],
+    )
     row = {"rest": float("nan"), "n": 5000, "k": 1, "Error": 5, "Settled [%]": 12.34, "Law": "a|b"}
     assert rows(pd.DataFrame([row])).splitlines() == [
         "| Law | Settled [%] | Error | k | n | rest |",
@@ -96,7 +100,7 @@ def test_table_writes_its_columns_in_their_order_with_their_formats_numbers_righ
 
 def test_table_refuses_a_format_for_no_column():
     with pytest.raises(ValueError, match=r"\['m'\], not columns of the table; known: \['n'\]"):
-        Table("n", {"m": str})
+        PageTable("n", {"m": str})
 
 
 @pytest.mark.parametrize(

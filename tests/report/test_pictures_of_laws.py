@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from support.pages import RUN, assert_is_drawn
 
 from bench.findings.answer import NOT_TESTED, Answer, find_answer
-from bench.findings.perturbed import Threshold, Way
+from bench.findings.perturbed import Direction, Threshold
 from bench.findings.selection.sensitivity import tune
 from bench.findings.theory.thresholds import HALF_TURN
 from report.figures.answer import topology, which_law
@@ -88,17 +88,20 @@ def test_counts_of_laws_that_noise_does_not_trap_say_who_has_a_memory():
 
 
 def test_thresholds_that_differ_are_said_beside_those_of_most_laws():
-    way = Way("spin")
-    each = {law: {way: Threshold(20.0, math.nan, math.nan)} for law in ("mrp", "hybrid")}
-    each["gibbs"] = {way: Threshold(10.0, 15.0, 0.2)}
-    groups = robustness.group_alike(each, [way])
+    direction = Direction("spin")
+    each = {law: {direction: Threshold(20.0, math.nan, math.nan)} for law in ("mrp", "hybrid")}
+    each["gibbs"] = {direction: Threshold(10.0, 15.0, 0.2)}
+    groups = robustness.group_alike(each, [direction])
     assert [len(group) for group in groups] == [2, 1]
-    [[law, *cells]] = robustness.list_weaker(groups, each, [way])
+    [[law, *cells]] = robustness.list_weaker(groups, each, [direction])
     assert "Gibbs" in law
     assert cells == ["Initial spin", "10 rad/s", "20 rad/s (last level tried)"]
-    said = robustness.describe_weaker(groups, each, [way])
+    said = robustness.describe_weaker(groups, each, [direction])
     assert said == "1 of the 3 laws withstands only milder levels than the other laws, for 1 of the perturbations"
-    assert robustness.describe_weaker(groups[:1], each, [way]) == "All 2 laws have the same thresholds"
+    assert (
+        robustness.describe_weaker(groups[:1], each, [direction])
+        == "All 2 laws have the same thresholds"
+    )
 
 
 def test_resets_are_counted_by_path_and_by_time():

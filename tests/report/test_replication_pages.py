@@ -10,7 +10,7 @@ from support.pages import RUN
 from bench.findings.claims import all_claims
 from bench.findings.claims.errata import COVERAGE
 from report.figures.cost import cost, plane
-from report.figures.cost.plane import Point
+from report.figures.cost.plane import LawPoint
 from report.figures.kit.page import REPORT
 from report.figures.replication import paper_index
 from report.figures.responses import responses
@@ -96,14 +96,18 @@ def test_laws_are_drawn_in_the_papers_order_and_then_the_later_ones():
 
 
 POINTS = [
-    Point(cost.PAPERS_ORDER[0], 43, 0, 1.7),
-    Point(cost.PAPERS_ORDER[1], 45, 6, float("inf")),
-    Point(cost.PAPERS_ORDER[2], 63, 6, 0.66),
+    LawPoint(cost.PAPERS_ORDER[0], 43, 0, 1.7),
+    LawPoint(cost.PAPERS_ORDER[1], 45, 6, float("inf")),
+    LawPoint(cost.PAPERS_ORDER[2], 63, 6, 0.66),
 ]
 
 
 def test_plane_counts_later_laws_that_are_as_fast_and_no_dearer():
-    later = [Point("mrp", 65, 0, 0.6), Point("hybrid", 80, 0, 0.6), Point("gibbs", 60, 0, 3.0)]
+    later = [
+        LawPoint("mrp", 65, 0, 0.6),
+        LawPoint("hybrid", 80, 0, 0.6),
+        LawPoint("gibbs", 60, 0, 3.0),
+    ]
     assert "1 later law is as fast and takes no more operations" in plane.describe_plane([*POINTS, *later], 1.2)
     assert "No later law is as fast" in plane.describe_plane([*POINTS, later[1]], 1.2)
     assert "Not tested" in plane.describe_plane(POINTS[:2], 1.2)

@@ -10,7 +10,7 @@ from bench.experiments import plan
 from bench.experiments.request import Request
 from bench.experiments.tables.run import VARIABLE, run_in, with_contender
 from bench.findings import perturbed, why
-from bench.findings.perturbed import Way
+from bench.findings.perturbed import Direction
 from bench.findings.theory import thresholds
 from bench.law.contenders.registry import find_contender
 from bench.running import run
@@ -46,10 +46,13 @@ def test_theory_says_which_laws_the_worst_noise_holds_at_the_half_turn(small_run
 
 
 def test_threshold_is_the_level_before_the_first_that_costs_a_law_its_starts(small_run):
-    each, way = robustness.found(small_run), Way("half-turn-noise")
-    assert (each["quaternion-shortest"][way].held, each["quaternion-shortest"][way].broken) == (0.0, 0.001)
-    assert (each["hybrid"][way].held, each["hybrid"][way].broken) == (0.3, 1.0)
-    assert math.isnan(each["paielli-bach"][way].held)
+    each, direction = robustness.found(small_run), Direction("half-turn-noise")
+    assert (
+        each["quaternion-shortest"][direction].held,
+        each["quaternion-shortest"][direction].broken,
+    ) == (0.0, 0.001)
+    assert (each["hybrid"][direction].held, each["hybrid"][direction].broken) == (0.3, 1.0)
+    assert math.isnan(each["paielli-bach"][direction].held)
 
 
 def test_judge_and_show_have_one_threshold(small_run):
@@ -57,13 +60,13 @@ def test_judge_and_show_have_one_threshold(small_run):
     lines = details.summary(rows_of_run).set_index("law")
     for law, own in perturbed.thresholds(with_contender(perturbed.by_level(rows_of_run))).items():
         text = why.perturbed(rows_of_run[rows_of_run["contender"] == law])[0].text
-        for way, one in own.items():
-            assert lines.loc[law, way.name] == str(one)
-            assert f"{way.name} {'none' if math.isnan(one.held) else f'{one.held:g}'}" in text
+        for direction, one in own.items():
+            assert lines.loc[law, direction.name] == str(one)
+            assert f"{direction.name} {'none' if math.isnan(one.held) else f'{one.held:g}'}" in text
 
 
 def test_moving_goals_break_every_law_where_theory_near_the_goal_says(small_run):
     for axis in ("moving-goal-rate", "moving-goal-untold"):
         limit = thresholds.near_goal(axis, True, KP, KV)
         for own in robustness.found(small_run).values():
-            assert own[Way(axis)].held < limit < own[Way(axis)].broken
+            assert own[Direction(axis)].held < limit < own[Direction(axis)].broken

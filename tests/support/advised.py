@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.selection.regions import Verdict
+from bench.findings.selection.regions import RuleVerdict
 from bench.law.contenders.registry import find_contender
 from support.tables import table
 
@@ -73,9 +73,15 @@ class Asked:
         return first, tuple(tied), frozenset(ours), frozenset(faster), len(laws)
 
 
-def unordered(verdict: Verdict):
+def unordered(verdict: RuleVerdict):
     """Return a verdict as `Asked.decide` has it: our own laws in no order."""
-    return verdict.law, verdict.tied, frozenset(verdict.ours), frozenset(verdict.faster), verdict.asked
+    return (
+        verdict.law,
+        verdict.tied,
+        frozenset(verdict.ours),
+        frozenset(verdict.faster),
+        verdict.eligible,
+    )
 
 
 def simplicity(law):

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pandas as pd
-from scipy.spatial.transform import Rotation as Turn
+from scipy.spatial.transform import Rotation as ScipyRotation
 
 import tasks
 from bench.engines.counting.counted import OPERATIONS
@@ -78,7 +78,7 @@ def axes(coordinates: str, angles) -> np.ndarray:
     """The axes that stand for x, y and z: the base's; of Euler angles the hand's, a level one and the base's z."""
     if not coordinates:
         return np.eye(3)
-    R, is_zyx = Turn.from_euler("ZYX", angles).as_matrix(), coordinates == "zyx-euler"
+    R, is_zyx = ScipyRotation.from_euler("ZYX", angles).as_matrix(), coordinates == "zyx-euler"
     first = angles[0] if is_zyx else math.atan2(R[1, 2], R[0, 2])
     return np.array([R[:, 0 if is_zyx else 2], (-math.sin(first), math.cos(first), 0.0), (0.0, 0.0, 1.0)])
 

@@ -1,10 +1,10 @@
 """Records of a hand in contact that are made up, whose metrics are known."""
 
 import numpy as np
-from scipy.spatial.transform import Rotation as Turn
+from scipy.spatial.transform import Rotation as ScipyRotation
 
 import tasks
-from bench.engines.metrics.contact_metric import Pose, Response
+from bench.engines.metrics.contact_metric import ContactResponse, Pose
 from bench.law.control.contact_controller import hybrid
 from tasks.contact import Specification, Trial
 from tasks.domains import wrench_probe
@@ -25,7 +25,7 @@ def trial(of: Specification, **more) -> Trial:
     return Trial("one", "pose", of, ARM.home, (1.0, 0.0, 0.0, 0.0), **more)
 
 
-def answered(of: Trial, outcome="done", **arrays) -> Response:
+def answered(of: Trial, outcome="done", **arrays) -> ContactResponse:
     """Return a response that rests at the identity but for the arrays given, of as many ticks as its time has."""
     ticks = len(arrays.get("time", TIME))
     blank = {
@@ -34,7 +34,7 @@ def answered(of: Trial, outcome="done", **arrays) -> Response:
         **dict.fromkeys(("omega", "p", "force", "moment"), np.zeros((ticks, 3))),
         **dict.fromkeys(("gap", "turned", "load"), np.zeros(ticks)),
     }
-    return Response(of, outcome, **(blank | arrays))
+    return ContactResponse(of, outcome, **(blank | arrays))
 
 
 def pose(*responses, task=wrench_probe.TASK, controller=CARTESIAN) -> Pose:
@@ -44,4 +44,4 @@ def pose(*responses, task=wrench_probe.TASK, controller=CARTESIAN) -> Pose:
 
 def spun(vector) -> np.ndarray:
     """Return orientations that turn evenly by a rotation vector [rad]."""
-    return Turn.from_rotvec(np.outer(TIME, vector)).as_matrix()
+    return ScipyRotation.from_rotvec(np.outer(TIME, vector)).as_matrix()

@@ -4,7 +4,7 @@ import re
 
 from bench.experiments.tables.run import Run
 from bench.findings.answer import find_answer
-from bench.findings.claims import judge_possible, told
+from bench.findings.claims import format_tally, judge_possible
 from bench.findings.conclusions import conclude
 from bench.findings.selection.robots import RUN
 
@@ -36,7 +36,7 @@ def list_conclusions() -> list[str]:
 def count_claims() -> str:
     """Return the sentence that counts the verdicts on all claims."""
     verdicts, _ = judge_possible(Run(RUN))
-    words = told(verdict.word for verdict in verdicts)
+    words = format_tally(verdict.word for verdict in verdicts)
     return f"Of his {len(verdicts)} claims that can be checked, {words}."
 
 

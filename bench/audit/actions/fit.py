@@ -15,7 +15,7 @@ TOLERANCE, MOVES = 0.2, 0.25
 """A row is explained to this part of its motion, or of the log's rms motion; it is judged if it moves so far of it."""
 
 
-class Rows(NamedTuple):
+class LogRows(NamedTuple):
     """Rows of a log: before, R, R_next (n x 3 x 3), one step apart; action (n x m); at: row of R; tolerance [rad]."""
 
     before: np.ndarray
@@ -25,12 +25,14 @@ class Rows(NamedTuple):
     at: np.ndarray
     tolerance: np.ndarray
 
-    def chosen(self, which: np.ndarray | slice) -> "Rows":
+    def chosen(self, which: np.ndarray | slice) -> "LogRows":
         """Return some of the rows."""
-        return Rows(*(field[which] for field in self))
+        return LogRows(*(field[which] for field in self))
 
 
-def align(R: np.ndarray, R_next: np.ndarray, action: np.ndarray, episode: np.ndarray, lag: int) -> Rows:
+def align(
+    R: np.ndarray, R_next: np.ndarray, action: np.ndarray, episode: np.ndarray, lag: int
+) -> LogRows:
     """Return the rows where action t moves pose t + lag of the same episode, if they move."""
     t = np.arange(max(-lag, 0), len(R) - max(lag, 0))
     t = t[episode[t] == episode[t + lag]]
@@ -39,10 +41,12 @@ def align(R: np.ndarray, R_next: np.ndarray, action: np.ndarray, episode: np.nda
     motion = np.linalg.norm(log(R[at].swapaxes(1, 2) @ R_next[at]), axis=1)
     rms = np.sqrt((motion**2).sum() / max(len(t), 1))
     tolerance = TOLERANCE * np.maximum(motion, rms) + 1e-12
-    return Rows(R[before], R[at], R_next[at], action[t], at, tolerance).chosen(motion > MOVES * rms)
+    return LogRows(R[before], R[at], R_next[at], action[t], at, tolerance).chosen(
+        motion > MOVES * rms
+    )
 
 
-class Convention(NamedTuple):
+class ActionConvention(NamedTuple):
     """A candidate; gain (k) and turn (C) are fitted.
 
     unit: rad for 1 in the action, before it is decoded; clip: "component" or "norm", at bound, before that; follows:
@@ -79,7 +83,9 @@ class Convention(NamedTuple):
         return self.is_inverse or self.gain < 0.0
 
 
-def fit(rows: Rows, one: Convention, rounds: int = 5) -> tuple[Convention, np.ndarray]:
+def fit(
+    rows: LogRows, one: ActionConvention, rounds: int = 5
+) -> tuple[ActionConvention, np.ndarray]:
     """Return the convention with its gain and constant rotation, and the residual (n) of every row [rad]."""
     R, R_next, C, size = rows.R, rows.R_next, np.eye(3), np.linalg.norm(rows.action, axis=1, keepdims=True)
     a = np.clip(rows.action, -one.bound, one.bound) if one.clip == "component" else rows.action

@@ -5,8 +5,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bench.audit.actions.conventions import RELATIONS, REPRESENTATIONS
-from bench.audit.actions.fit import TOLERANCE, Convention
-from bench.audit.actions.search import DEGREE, ENOUGH, FEWEST, Found, is_reached, search
+from bench.audit.actions.fit import TOLERANCE, ActionConvention
+from bench.audit.actions.search import DEGREE, ENOUGH, FEWEST, LogExplanation, is_reached, search
 from bench.audit.rotations import log
 from bench.base.errors import BadNumber, UnknownWord
 
@@ -16,7 +16,9 @@ ROUNDING = 1e-3
 """Deviation of a squared length from that of a unit quaternion, or of two or three columns, that is no rounding."""
 
 
-def audit_actions(R: Any, action: np.ndarray, R_next: Any = None, episode: Any = None, *, expect: str = "") -> "Report":
+def audit_actions(
+    R: Any, action: np.ndarray, R_next: Any = None, episode: Any = None, *, expect: str = ""
+) -> "ActionReport":
     """Return what the rotation part of actions means.
 
     Args:
@@ -43,10 +45,10 @@ def audit_actions(R: Any, action: np.ndarray, R_next: Any = None, episode: Any =
     is_followed = np.append((episode[:-1] == episode[1:]) & is_whole[1:], False)
     t = np.flatnonzero(is_whole if later else is_whole & is_followed)
     poses = {one: (R[t], later[one][t] if later else R[t + 1]) for one, R in now.items()}
-    return Report(search(poses, action[t], episode[t]), words, action[t], t)
+    return ActionReport(search(poses, action[t], episode[t]), words, action[t], t)
 
 
-def list_words(one: Convention) -> set[str]:
+def list_words(one: ActionConvention) -> set[str]:
     """Return the words that are true of a convention."""
     words = {one.representation, one.relation, f"lag={one.lag}", "target" if one.follows else "pose"}
     words |= {"delta"} if one.relation in ("base", "body") else set()
@@ -54,16 +56,16 @@ def list_words(one: Convention) -> set[str]:
     return words | {f"euler-{one.representation[6:].swapcase()}"} if is_negated else words
 
 
-def describe(one: Convention) -> str:
+def describe(one: ActionConvention) -> str:
     """Return a convention in words."""
     to, lag = " from the last target" * (one.follows > 0.0), f", action t moves pose t{one.lag:+d}" * (one.lag != 0)
     return f"{one.representation}, {one.relation} ({RELATIONS[one.relation]}){to}{lag}"
 
 
-class Report(NamedTuple):
+class ActionReport(NamedTuple):
     """What was found, of what was stated; the actions that were judged, and their rows in the log."""
 
-    found: Found
+    found: LogExplanation
     stated: tuple[str, ...]
     action: np.ndarray
     row: np.ndarray

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.audit.actions.conventions import COORDINATES, REPRESENTATIONS
-from bench.audit.actions.fit import Convention, Rows, align, fit, nearest
+from bench.audit.actions.fit import ActionConvention, LogRows, align, fit, nearest
 from bench.audit.rotations import log
 
 LAGS, DEGREE = range(-1, 6), np.pi / 180.0
@@ -25,7 +25,7 @@ def is_reached(part: float) -> bool:
 class Fitted(NamedTuple):
     """A fitted convention, the rows (n) of its poses, their residual [rad] and loss: residual/tolerance, at most 1."""
 
-    convention: Convention
+    convention: ActionConvention
     at: np.ndarray
     residual: np.ndarray
     loss: np.ndarray
@@ -41,7 +41,7 @@ class Fitted(NamedTuple):
         return float(np.mean(self.loss < 1.0))
 
 
-def fit_each(rows: dict, several: list[Convention], rounds: int = 5) -> list[Fitted]:
+def fit_each(rows: dict, several: list[ActionConvention], rounds: int = 5) -> list[Fitted]:
     """Fit conventions to the rows of their reading and lag, and return them with the best first."""
     found = []
     for one in several:
@@ -51,25 +51,32 @@ def fit_each(rows: dict, several: list[Convention], rounds: int = 5) -> list[Fit
     return sorted(found, key=lambda each: each.cost)
 
 
-def list_plain(rows: Rows, pose: str, lag: int) -> Iterator[Convention]:
+def list_plain(rows: LogRows, pose: str, lag: int) -> Iterator[ActionConvention]:
     """Yield the conventions without clip, target and constant rotation."""
     width = rows.action.shape[1]
-    for start in (Convention(pose, "rotation-vector", relation, lag) for relation in ("base", "body")):
+    for start in (
+        ActionConvention(pose, "rotation-vector", relation, lag) for relation in ("base", "body")
+    ):
         unit = abs(fit(rows, start)[0].gain) or 1.0 if width == 3 else 1.0  # Euler angles of the size of the motion
         yield from (start._replace(representation=name, unit=unit) for name in REPRESENTATIONS[width])
     for is_inverse in (False, True)[: 2 if width < 6 else 1]:  # the inverse of rows is columns
         for unit in (1.0, DEGREE)[: 2 if width == 3 else 1]:
-            yield from (Convention(pose, name, "absolute", lag, unit, is_inverse) for name in REPRESENTATIONS[width])
-    yield from (Convention(pose, name, "difference", lag) for name in COORDINATES if width == 3)
+            yield from (
+                ActionConvention(pose, name, "absolute", lag, unit, is_inverse)
+                for name in REPRESENTATIONS[width]
+            )
+    yield from (
+        ActionConvention(pose, name, "difference", lag) for name in COORDINATES if width == 3
+    )
 
 
-def list_offset(one: Convention) -> list[Convention]:
+def list_offset(one: ActionConvention) -> list[ActionConvention]:
     """Return a convention with a constant rotation, where it may have one."""
     places = {"absolute": ("tool", "base"), "difference": ()}.get(one.relation, ("frame",))
     return [one._replace(offset=place) for place in places if not one.offset and not one.is_inverse]
 
 
-def refine(rows: dict, one: Convention, is_extended: bool) -> Convention:
+def refine(rows: dict, one: ActionConvention, is_extended: bool) -> ActionConvention:
     """Return it with the best unit of Euler angles, and with a target or clip if that is much better."""
     action, is_delta, others = rows[one.pose, one.lag].action, one.relation in ("base", "body"), []
     if is_delta and one.representation.startswith("euler"):
@@ -92,7 +99,7 @@ def compare(best: Fitted, other: Fitted) -> float:
     return float(np.mean(sums[draws].sum(axis=1) > 0.0))
 
 
-class Found(NamedTuple):
+class LogExplanation(NamedTuple):
     """What explains a log, of so many rows that move: best, or None.
 
     shuffled: share of rows that best explains with the actions in another order; rivals: what explains the log as well;
@@ -103,19 +110,21 @@ class Found(NamedTuple):
     rows: int
     best: Fitted | None = None
     shuffled: float = 0.0
-    rivals: tuple[Convention, ...] = ()
-    second: Convention | None = None
+    rivals: tuple[ActionConvention, ...] = ()
+    second: ActionConvention | None = None
     sure: float = 1.0
     mixed: Fitted | None = None
     spread: float = 0.0
 
 
-def search(poses: dict[str, tuple[np.ndarray, np.ndarray]], action: np.ndarray, episode: np.ndarray) -> Found:
+def search(
+    poses: dict[str, tuple[np.ndarray, np.ndarray]], action: np.ndarray, episode: np.ndarray
+) -> LogExplanation:
     """Find what explains a log, over all readings of its poses (by name), lags, representations and relations."""
     logs = {(pose, lag): align(*both, action, episode, lag) for pose, both in poses.items() for lag in LAGS}
     logs = {key: rows for key, rows in logs.items() if len(rows.at) >= FEWEST}
     if not logs:
-        return Found(0)
+        return LogExplanation(0)
     few = {key: rows.chosen(slice(None, None, -(-len(rows.at) // SAMPLE))) for key, rows in logs.items()}
     plain = fit_each(few, [one for key, rows in few.items() for one in list_plain(rows, *key)], 0)
     if plain[0].cost > ENOUGH:
@@ -134,7 +143,7 @@ def search(poses: dict[str, tuple[np.ndarray, np.ndarray]], action: np.ndarray, 
     shuffled = fit_each({(one.pose, one.lag): rows._replace(action=rows.action[order])}, [best.convention])[0].share
     explained = best.share + (mixed.share * len(mixed.at) / len(rows.at) if mixed else 0.0)
     if explained < ENOUGH or shuffled > best.share / 2:
-        return Found(len(rows.at), shuffled=shuffled)
+        return LogExplanation(len(rows.at), shuffled=shuffled)
     others = [each for each in others if each.convention.extras <= best.convention.extras]
     others = [each for each in others if not mixed or each.convention[:3] != mixed.convention[:3]]
     spread = np.linalg.norm(log(nearest(rows.R.mean(axis=0)).T @ rows.R), axis=1)
@@ -144,4 +153,13 @@ def search(poses: dict[str, tuple[np.ndarray, np.ndarray]], action: np.ndarray, 
     second, share = next(((one.convention, sure[id(one)]) for one in others if sure[id(one)] >= SURE), (None, 1.0))
     forward = [each.convention for each in equal if each.convention.is_backward <= best.convention.is_backward]
     rivals = tuple(each for each in forward if each is not best.convention)
-    return Found(len(rows.at), best, shuffled, rivals, second, share, mixed, float(np.sqrt(np.mean(spread**2))))
+    return LogExplanation(
+        len(rows.at),
+        best,
+        shuffled,
+        rivals,
+        second,
+        share,
+        mixed,
+        float(np.sqrt(np.mean(spread**2))),
+    )

@@ -13,7 +13,7 @@ import re
 from collections.abc import Callable
 from typing import NamedTuple
 
-from bench.audit.examined import FAULT, Found
+from bench.audit.examined import FAULT, Symptom
 
 
 class Fault(NamedTuple):
@@ -34,11 +34,11 @@ class Fault(NamedTuple):
     find: Callable = print
 
 
-class Finding(NamedTuple):
+class FoundFault(NamedTuple):
     """A fault of a function; `is_allowed`: its author says that it is intended."""
 
     fault: Fault
-    found: Found
+    found: Symptom
     is_allowed: bool = False
 
     @property

@@ -7,7 +7,7 @@ unless: digits-near-180, euler-angles, misaligned, axis-clip
 
 import numpy as np
 
-from bench.audit.examined import Examined, Found
+from bench.audit.examined import Examined, Symptom
 from bench.audit.faults.dead_at_180 import ZERO
 
 OFF_AXIS_RAD = 0.01
@@ -24,7 +24,7 @@ def find_off_axis(examined: Examined) -> tuple[np.ndarray, np.ndarray]:
     return bad & examined.at("at-180"), bad & examined.at("near-180") & (off_axis > by_rounding)
 
 
-def find_known(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Symptom | None:
     """At 180° either direction along the axis is right, and nothing else; before it, beyond rounding, one."""
     if examined.form == "gibbs":
         return None  # it has no end there

@@ -6,7 +6,7 @@ cure: if the error is longer than the limit, scale the whole error vector down t
 
 import numpy as np
 
-from bench.audit.examined import Examined, Found
+from bench.audit.examined import Examined, Symptom
 
 FEWEST = 10
 """Answers that share their largest component: of drawn pairs no two do."""
@@ -14,7 +14,7 @@ SAME = 1e-6
 BENT_RAD = 1e-3
 
 
-def find_known(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Symptom | None:
     """Many answers have the same largest component, and leave the axis."""
     here = np.flatnonzero(examined.at("wide", "close", "pole") & np.isfinite(examined.e).all(axis=1))
     largest = np.abs(examined.e[here]).max(axis=1)
@@ -26,4 +26,4 @@ def find_known(examined: Examined) -> Found | None:
         return None
     worst = int(bent[np.argmax(off_axis[bent])])
     text = f"no component exceeds {limit:.6g}; the direction changes by up to {np.degrees(off_axis[worst]):.3g}°"
-    return Found(text, examined.evidence(worst))
+    return Symptom(text, examined.evidence(worst))

@@ -9,7 +9,7 @@ unless: not-a-number, raises, long-way, misaligned
 
 import numpy as np
 
-from bench.audit.examined import Examined, Found
+from bench.audit.examined import Examined, Symptom
 
 ZERO = 1e-6
 """Share of slope times pi: six decades below the requested error; rounding leaves 1e-15, a scalar part of it 1e-8."""
@@ -21,7 +21,7 @@ CURE_OF_A_FORM = (
 )
 
 
-def find_known(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Symptom | None:
     """|e| is zero at 180°, by rounding or a sign of 0, or because its form dies away there, as sin(theta) does."""
     at_180 = examined.at("at-180")
     dead = at_180 & (examined.size <= ZERO * examined.slope * np.pi)

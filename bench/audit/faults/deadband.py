@@ -7,7 +7,7 @@ unless: single-precision
 
 import numpy as np
 
-from bench.audit.examined import Evidence, Examined, Found, inputs
+from bench.audit.examined import Examined, PairEvidence, Symptom, inputs
 from bench.audit.pairs import at_angles, joined
 
 SMALLEST_RAD = 1e-7
@@ -24,7 +24,7 @@ def find_step(examined: Examined) -> float:
     return step if is_step else 0.0
 
 
-def find_known(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Symptom | None:
     """e is exactly zero, or a component of it, up to an angle; beyond it is not. Or it has steps everywhere."""
     drawn = at_angles("line", np.random.default_rng(SEED), np.geomspace(SMALLEST_RAD, 1e-3, 40))
     tried, e = joined(examined.pairs, drawn), np.vstack((examined.e, examined.evaluate(drawn).e))
@@ -37,4 +37,4 @@ def find_known(examined: Examined) -> Found | None:
     if step := find_step(examined):
         text = f"e is rounded: each component is a multiple of {step:.4g}; {text}"
     now, goal = inputs(examined.takes, tried.chosen(slice(i, i + 1)))
-    return Found(text, Evidence(now[0], goal[0], e[i]))
+    return Symptom(text, PairEvidence(now[0], goal[0], e[i]))

@@ -8,7 +8,7 @@ unless: single-precision, deadband, euler-angles, norm-clip, axis-clip, long-way
 
 import numpy as np
 
-from bench.audit.examined import COUNT_RAD, NOTE, Examined, Found
+from bench.audit.examined import COUNT_RAD, NOTE, Examined, Symptom
 
 LARGEST_RAD = 0.01
 LOST = 1e-9
@@ -18,7 +18,7 @@ NEARER_RAD = 1e-3
 farther away is another fault."""
 
 
-def find_known(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Symptom | None:
     """|e - truth| of the smallest rotations; a note if no encoder shows it."""
     angle = examined.pairs.angle
     here = examined.at("near-identity", "identity") & (angle <= LARGEST_RAD)
@@ -30,5 +30,7 @@ def find_known(examined: Examined) -> Found | None:
         return None
     text = f"off by up to {error[worst]:.2g} rad, at {angle[worst]:.2g} rad"
     if error[worst] > COUNT_RAD:
-        return Found(text, examined.evidence(worst))
-    return Found(f"{text}: less than a count of an encoder of 24 bits", examined.evidence(worst), NOTE)
+        return Symptom(text, examined.evidence(worst))
+    return Symptom(
+        f"{text}: less than a count of an encoder of 24 bits", examined.evidence(worst), NOTE
+    )

@@ -7,13 +7,13 @@ unless: single-precision, misaligned, euler-angles, axis-clip, norm-clip, long-w
 
 import numpy as np
 
-from bench.audit.examined import COUNT_RAD, Examined, Found
+from bench.audit.examined import COUNT_RAD, Examined, Symptom
 from bench.audit.faults import axis_at_180, dead_at_180
 
 FARTHEST_RAD = 0.1
 
 
-def find_known(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Symptom | None:
     """Find what is across the axis; and along it, if the size is right 0.1 rad before, and does not end in zero."""
     here = examined.at("near-180") & (examined.size > 0.0) & np.isfinite(examined.size)
     error = np.fmin(examined.size, np.pi * examined.slope) * np.sin(examined.apart)
@@ -28,4 +28,7 @@ def find_known(examined: Examined) -> Found | None:
         return None
     worst = int(np.nanargmax(error))
     distance = examined.pairs.distance[worst]
-    return Found(f"off by up to {error[worst]:.2g} rad, {distance:.2g} rad before 180°", examined.evidence(worst))
+    return Symptom(
+        f"off by up to {error[worst]:.2g} rad, {distance:.2g} rad before 180°",
+        examined.evidence(worst),
+    )

@@ -5,12 +5,14 @@ cure: swap the two arguments, or change the sign of the error
 unless: transpose
 """
 
-from bench.audit.examined import Examined, Found
+from bench.audit.examined import Examined, Symptom
 
 
-def find(examined: Examined) -> Found | None:
+def find(examined: Examined) -> Symptom | None:
     """e points from R_d to R where the caller wants the opposite, or the reverse."""
     stated, found = examined.stated, examined.convention
     if not found or stated.sign in (None, found.sign):
         return None
-    return Found(f"stated to point {stated.sign}, it points {found.sign}: swapped arguments, or another sign")
+    return Symptom(
+        f"stated to point {stated.sign}, it points {found.sign}: swapped arguments, or another sign"
+    )

@@ -7,14 +7,14 @@ law: quaternion-shortest
 
 import numpy as np
 
-from bench.audit.examined import Evidence, Examined, Found, evaluate, inputs
+from bench.audit.examined import Examined, PairEvidence, Symptom, evaluate, inputs
 
 OTHERWISE = 1e-3
 """Least difference of angles; rounding leaves 1e-16, single precision 1e-7."""
 SMALLEST_RAD = 1e-3
 
 
-def find(examined: Examined) -> Found | None:
+def find(examined: Examined) -> Symptom | None:
     """f(q, -q_d) and f(-q, q_d) are not f(q, q_d)."""
     if examined.takes == "matrix" or not examined.convention:
         return None
@@ -28,5 +28,7 @@ def find(examined: Examined) -> Found | None:
         if bad.any():
             i = int(np.argmax(bad))
             text = f"{bad.sum()} of {len(here)} pairs are answered otherwise with {other}, the same orientation"
-            return Found(text, Evidence(given[0][i], given[1][i], said[i], examined.e[here[i]]))
+            return Symptom(
+                text, PairEvidence(given[0][i], given[1][i], said[i], examined.e[here[i]])
+            )
     return None

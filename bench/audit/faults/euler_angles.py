@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.audit.convention import ENOUGH
-from bench.audit.examined import Examined, Found
+from bench.audit.examined import Examined, Symptom
 from bench.audit.pairs import Pairs
 from bench.audit.rotations import to_euler
 
@@ -22,7 +22,7 @@ SAME_RAD = 1e-5
 """Largest difference of each angle: single precision has 1e-6."""
 
 
-def find(examined: Examined) -> Found | None:
+def find(examined: Examined) -> Symptom | None:
     """Three angles, or differences of them, about axes that are not at right angles."""
     angles = find_angles(examined)
     if angles is None:
@@ -30,7 +30,7 @@ def find(examined: Examined) -> Found | None:
     here = np.flatnonzero(examined.at("wide"))
     worst = int(here[np.argmax(np.abs(examined.e[here]).max(axis=1))])
     text = f"e is {angles.how} (intrinsic {angles.sequence}): no axis, and a pole where the middle angle is 90°"
-    return Found(text, examined.evidence(worst, False))
+    return Symptom(text, examined.evidence(worst, False))
 
 
 class Angles(NamedTuple):
@@ -43,7 +43,7 @@ class Angles(NamedTuple):
 
 @functools.lru_cache(maxsize=2)
 def find_angles(examined: Examined) -> Angles | None:
-    """Return the sequence whose angles e is, or whose difference; None if it is no such thing."""
+    """Return the Euler sequence that explains e, as angles or as their difference; or None."""
     if examined.form:
         return None
     here = examined.pairs.chosen(examined.at("wide"))

@@ -11,16 +11,18 @@ from collections.abc import Iterator
 import numpy as np
 
 from bench.audit.convention import ENOUGH, FRAMES, apart, directions
-from bench.audit.examined import EXPLAINED_RAD, Examined, Found, Model, explanation
+from bench.audit.examined import EXPLAINED_RAD, Examined, Model, Symptom, explanation
 from bench.audit.pairs import Pairs
 from bench.audit.rotations import rotated
 
 
-def find(examined: Examined) -> Found | None:
+def find(examined: Examined) -> Symptom | None:
     """Find an error in the other frame than stated, or rotated into none."""
     stated, found = examined.stated, examined.convention
     if found and stated.frame and stated.frame != found.frame:
-        return Found(f"stated to be in the {stated.frame} frame, it is in the {found.frame} frame")
+        return Symptom(
+            f"stated to be in the {stated.frame} frame, it is in the {found.frame} frame"
+        )
     if not found:
         return explanation(examined, models, "e = {}, which is in no frame")
     (other,) = set(FRAMES) - {found.frame}
@@ -31,7 +33,7 @@ def find(examined: Examined) -> Found | None:
         return None
     where = np.degrees(examined.pairs.angle[here[is_other]])
     text = f"{found.frame} frame, but {other} frame for {is_other.sum()}, at {where.min():.3g}° to {where.max():.3g}°"
-    return Found(text, examined.evidence(int(here[np.argmax(is_other)])))
+    return Symptom(text, examined.evidence(int(here[np.argmax(is_other)])))
 
 
 def models(pairs: Pairs) -> Iterator[Model]:

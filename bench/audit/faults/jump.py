@@ -7,7 +7,7 @@ unless: long-way, deadband, euler-angles, frame, misaligned, axis-at-180
 
 import numpy as np
 
-from bench.audit.examined import COUNT_RAD, Evidence, Examined, Found, inputs
+from bench.audit.examined import COUNT_RAD, Examined, PairEvidence, Symptom, inputs
 from bench.audit.pairs import CUBE_AXES, Pairs, diagonal, drawn_axes, drawn_orientations, made
 
 SEED = 11
@@ -21,7 +21,7 @@ NOISE = 30.0
 """Times what most answers are off the axis."""
 
 
-def find_known(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Symptom | None:
     """Along rotations from 1e-4 to 179.5° about some axes: neighbours apart, and still so when they come together."""
     rng, angle = np.random.default_rng(SEED), np.radians(ANGLES_DEG)
     begins = np.vstack((diagonal(3), drawn_orientations(rng, 5)))
@@ -38,8 +38,10 @@ def find_known(examined: Examined) -> Found | None:
             if size > max(JUMP * min(high, 1.0), COUNT_RAD, NOISE * examined.noise):
                 (_, now), (_, goal) = inputs(examined.takes, ends)
                 right = examined.known(ends)[1][1]
-                evidence = Evidence(now, goal, said[1], right if np.isfinite(right).all() else "")
-                return Found(f"e jumps by {size:.3g} at {np.degrees(high):.6g}°", evidence)
+                evidence = PairEvidence(
+                    now, goal, said[1], right if np.isfinite(right).all() else ""
+                )
+                return Symptom(f"e jumps by {size:.3g} at {np.degrees(high):.6g}°", evidence)
     return None
 
 

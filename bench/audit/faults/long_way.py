@@ -9,7 +9,7 @@ law: quaternion-shortest
 
 import numpy as np
 
-from bench.audit.examined import Examined, Found
+from bench.audit.examined import Examined, Symptom
 from bench.audit.faults.euler_angles import SAME_RAD, find_angles
 from bench.audit.faults.stiffness import DEVIATION
 
@@ -17,7 +17,7 @@ AGAINST_RAD = 0.1
 """Between an answer and the axis the wrong way; rounding bends no answer so."""
 
 
-def find(examined: Examined) -> Found | None:
+def find(examined: Examined) -> Symptom | None:
     """e points against the axis for some pairs, or an angle is more than pi."""
     if not examined.form and abs(examined.slope * np.radians(1.0) - 1.0) < DEVIATION:
         return None  # a sine of degrees, which is not a matter of a wrap

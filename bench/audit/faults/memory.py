@@ -8,13 +8,13 @@ law: quaternion-shortest
 
 import numpy as np
 
-from bench.audit.examined import Examined, Found, evaluate, inputs
+from bench.audit.examined import Examined, Symptom, evaluate, inputs
 
 DIFFERENCE = 1e-12
 """Share of slope times a radian; one function of the same numbers has none."""
 
 
-def find(examined: Examined) -> Found | None:
+def find(examined: Examined) -> Symptom | None:
     """Call the function again for some pairs, from 180° to 0, and compare; then one that was loaded afresh.
 
     "cube" has many goals for each R: a value that is kept for an R, and never computed again, shows there. What keeps
@@ -32,4 +32,4 @@ def find(examined: Examined) -> Found | None:
     if not differs.any():
         return None
     text = f"{differs.sum()} of {len(here)} pairs have another answer when they are evaluated again, in another order"
-    return Found(text, examined.evidence(int(here[np.argmax(differs)])))
+    return Symptom(text, examined.evidence(int(here[np.argmax(differs)])))

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from bench.audit.convention import FORMS, directions
-from bench.audit.examined import FAULT, Examined, Found, Model, explanation
+from bench.audit.examined import FAULT, Examined, Model, Symptom, explanation
 from bench.audit.pairs import Pairs, Place
 from bench.audit.rotations import rotated
 
@@ -23,7 +23,7 @@ EXACT, NEARLY = 1e-6, 0.05
 """What a constant matrix may leave everywhere, or near the goal, as a share of the largest answer."""
 
 
-def find(examined: Examined) -> Found | None:
+def find(examined: Examined) -> Symptom | None:
     """Away from 0 and 180° answers leave the axis."""
     here = np.flatnonzero(examined.at("wide", "close"))
     angle = np.nan_to_num(np.fmin(examined.apart, np.pi - examined.apart)[here])  # against the axis is another fault
@@ -35,13 +35,15 @@ def find(examined: Examined) -> Found | None:
     if not examined.form and (matrix := find_matrix(examined)):
         effect = "the robot turns about another axis than the shortest way has, away from the goal if a sign is wrong"
         cure = "leave the matrix out of the error; gains that differ belong behind it, and their frame to the gains"
-        return Found(matrix, evidence, FAULT, effect, cure)
+        return Symptom(matrix, evidence, FAULT, effect, cure)
     if not examined.convention:
         said = explanation(examined, differences, "e is the difference of {}: no axis of the rotation from R to R_d")
-        return said or Found("nothing known explains its answers: they lie along no axis", evidence)
+        return said or Symptom(
+            "nothing known explains its answers: they lie along no axis", evidence
+        )
     where = np.degrees(examined.pairs.angle[here][bent])
     text = f"{bent.sum()} of {len(here)} answers, at {where.min():.3g}° to {where.max():.3g}°, are off the axis"
-    return Found(f"{text} by up to {np.degrees(angle[worst]):.3g}°", evidence)
+    return Symptom(f"{text} by up to {np.degrees(angle[worst]):.3g}°", evidence)
 
 
 def find_matrix(examined: Examined) -> str:

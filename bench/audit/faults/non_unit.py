@@ -7,7 +7,7 @@ unless: raises, not-a-number, deadband, jump, memory, single-precision
 
 import numpy as np
 
-from bench.audit.examined import NOTE, Evidence, Examined, Found, evaluate, inputs
+from bench.audit.examined import NOTE, Examined, PairEvidence, Symptom, evaluate, inputs
 
 OFF = 1e-6
 """What single precision, a sensor or an hour of integration leaves."""
@@ -15,7 +15,7 @@ AMPLIFIED = 1e-4
 """Change of e, a hundred times that of the input, in rad times slope."""
 
 
-def find_known(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Symptom | None:
     """Both inputs longer or shorter by a millionth: no number, or another error; a note if it refuses them."""
     places = (examined.at("identity"), examined.at("near-identity", "wide"))
     usable = np.isfinite(examined.e).all(axis=1)
@@ -26,9 +26,11 @@ def find_known(examined: Examined) -> Found | None:
         said = evaluate(examined.function, scale * now, scale * goal)
         for i, reason in enumerate(said.raised):
             right = examined.e[here[i]]
-            evidence = Evidence(scale * now[i], scale * goal[i], reason or said.e[i], right)
+            evidence = PairEvidence(scale * now[i], scale * goal[i], reason or said.e[i], right)
             if reason:
-                refused = refused or Found(f"it refuses input that is off by {OFF:g}", evidence, NOTE)
+                refused = refused or Symptom(
+                    f"it refuses input that is off by {OFF:g}", evidence, NOTE
+                )
             elif not np.linalg.norm(said.e[i] - right) <= AMPLIFIED * examined.slope:
-                return Found(f"input that is off by {OFF:g} is answered otherwise", evidence)
+                return Symptom(f"input that is off by {OFF:g} is answered otherwise", evidence)
     return refused

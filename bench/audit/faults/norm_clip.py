@@ -8,7 +8,7 @@ unless: axis-clip
 import numpy as np
 
 from bench.audit.convention import is_nearest
-from bench.audit.examined import Examined, Found
+from bench.audit.examined import Examined, Symptom
 
 FEWEST = 10
 SAME = 1e-6
@@ -16,7 +16,7 @@ BENT_RAD = 1e-3
 SHORTER = 0.999
 
 
-def find_known(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Symptom | None:
     """Many answers have one length, or one largest component, and are shorter than they should be.
 
     Of a form of no name, shorter than a slope says that it has near the goal: a smooth one has its largest length at a
@@ -33,5 +33,7 @@ def find_known(examined: Examined) -> Found | None:
         limit = float(length[here].max(initial=0.0))
         at_limit = shorter[np.abs(length[shorter] - limit) <= SAME * limit]
         if len(at_limit) >= FEWEST and np.ptp(full[at_limit]) > (1.0 - SHORTER) * limit:
-            return Found(f"the {what} never exceeds {limit:.6g}", examined.evidence(int(at_limit[-1])))
+            return Symptom(
+                f"the {what} never exceeds {limit:.6g}", examined.evidence(int(at_limit[-1]))
+            )
     return None

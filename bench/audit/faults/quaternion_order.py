@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from bench.audit.examined import Examined, Found, Model, explanation, inputs
+from bench.audit.examined import Examined, Model, Symptom, explanation, inputs
 from bench.audit.pairs import Pairs
 from bench.audit.rotations import product
 
@@ -19,11 +19,11 @@ READ = {"wxyz": [0, 1, 2, 3], "xyzw": [3, 0, 1, 2], "xyzw, shifted the wrong way
 """Places that w, x, y, z are taken from."""
 
 
-def find(examined: Examined) -> Found | None:
+def find(examined: Examined) -> Symptom | None:
     """Find the other order than stated, or one order here and the other there."""
     stated, found = examined.stated.takes, examined.convention
     if found and stated in ORDERS and found.takes in ORDERS and found.takes != stated:
-        return Found(f"stated to take {stated}, it takes {found.takes}")
+        return Symptom(f"stated to take {stated}, it takes {found.takes}")
     if examined.takes not in ORDERS:
         return None
     text = f"{{}}, of quaternions given as {examined.takes}"

@@ -6,10 +6,10 @@ cure: return an orientation error, without an exception, for every pair of orien
 
 import numpy as np
 
-from bench.audit.examined import Examined, Found
+from bench.audit.examined import Examined, Symptom
 
 
-def find(examined: Examined) -> Found | None:
+def find(examined: Examined) -> Symptom | None:
     """Find calls that raise or that do not return three numbers."""
     silent = np.array([bool(reason) for reason in examined.raised])
     if examined.form == "gibbs":

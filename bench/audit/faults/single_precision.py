@@ -6,7 +6,7 @@ cure: compute the difference of two orientations in double precision; later step
 
 import numpy as np
 
-from bench.audit.examined import FAULT, Examined, Found
+from bench.audit.examined import FAULT, Examined, Symptom
 from bench.audit.faults.deadband import find_step
 
 LEAST, MOST = 1e-9, 1e-4
@@ -19,7 +19,7 @@ SINGLE, LESS = 1e-6, 5.0
 """Nearer the goal, where e is a thirtieth, an error of the orientations is that many times more of e."""
 
 
-def find(examined: Examined) -> Found | None:
+def find(examined: Examined) -> Symptom | None:
     """Off the axis by as much as single precision leaves where nothing is difficult."""
     here = np.flatnonzero(examined.at("wide", "close"))
     across = np.sin(examined.apart[here])
@@ -32,4 +32,4 @@ def find(examined: Examined) -> Found | None:
     i = int(here[np.flatnonzero(fits)[np.argmax(across[fits])]])
     text = f"answers are off by {off:.1g} of their size everywhere{', as in half precision' if off > MOST / 10 else ''}"
     effect = f"steps of {off:.1g} of the error, which a derivative or high damping makes audible"
-    return Found(text, examined.evidence(i), FAULT, effect)
+    return Symptom(text, examined.evidence(i), FAULT, effect)

@@ -9,7 +9,7 @@ unless: euler-angles
 
 import numpy as np
 
-from bench.audit.examined import FAULT, Examined, Found
+from bench.audit.examined import FAULT, Examined, Symptom
 
 DEVIATION = 1e-3
 """Share of the slope: no gain is set better than to a thousandth."""
@@ -37,7 +37,7 @@ FACTORS = {
 """Cures of slopes that have a reason."""
 
 
-def find(examined: Examined) -> Found | None:
+def find(examined: Examined) -> Symptom | None:
     """|e|/theta at the goal is not what was stated."""
     if not examined.convention or abs(examined.slope / examined.stated.stiffness - 1.0) <= DEVIATION:
         return None
@@ -48,7 +48,9 @@ def find(examined: Examined) -> Found | None:
             return None  # a dead band: there is no slope to speak of
         if felt.max() > TIMES * felt.min():
             text = f"|e|/theta is between {felt.min():.4g} and {felt.max():.4g} near the goal: no gain is set by it"
-            return Found(text, examined.evidence(int(np.flatnonzero(here)[np.argmax(felt)]), False))
+            return Symptom(
+                text, examined.evidence(int(np.flatnonzero(here)[np.argmax(felt)]), False)
+            )
         if abs(examined.slope / examined.stated.stiffness - 1.0) < felt.max() / felt.min() - 1.0:
             return None  # no one slope: another fault
     ratio = examined.slope / examined.stated.stiffness
@@ -58,9 +60,11 @@ def find(examined: Examined) -> Found | None:
     for slope, (unit, words) in UNITS.items():
         if abs(ratio / slope - 1.0) <= DEVIATION:
             cure = "convert to radians" + (": np.radians(e)" if unit == "degrees" else "") * bool(examined.form)
-            return Found(f"e is in {unit}: the slope is {ratio:.6g} = {words}", evidence, FAULT, effect, cure)
+            return Symptom(
+                f"e is in {unit}: the slope is {ratio:.6g} = {words}", evidence, FAULT, effect, cure
+            )
     cures = (
         cure for (form, slope), cure in FACTORS.items() if form == examined.form and abs(ratio / slope - 1.0) < 1e-6
     )
     words = f"the real stiffness is {ratio:.4g} of the stiffness that is set"
-    return Found(words, evidence, FAULT, effect, next(cures, ""))
+    return Symptom(words, evidence, FAULT, effect, next(cures, ""))

@@ -7,16 +7,16 @@ law: rotation-matrix
 
 from collections.abc import Iterator
 
-from bench.audit.examined import Examined, Found, Model, explanation
+from bench.audit.examined import Examined, Model, Symptom, explanation
 from bench.audit.pairs import Pairs
 from bench.audit.rotations import axis_of
 
 
-def find(examined: Examined) -> Found | None:
+def find(examined: Examined) -> Symptom | None:
     """Return the axis of a product with one transpose less; or, if both are stated, the other frame and direction."""
     stated, found = examined.stated, examined.convention
     if found and None not in (stated.frame, stated.sign) and (stated.frame, stated.sign) != (found.frame, found.sign):
-        return None if stated.frame == found.frame or stated.sign == found.sign else Found(
+        return None if stated.frame == found.frame or stated.sign == found.sign else Symptom(
             "frame and direction are both the other than stated: both matrices are transposed, as those of a library "
             "that stores columns are when they are read by rows"
         )  # fmt: skip

@@ -8,7 +8,7 @@ unless: norm-clip, axis-clip, deadband, jump, long-way, misaligned, euler-angles
 
 import numpy as np
 
-from bench.audit.examined import Examined, Found
+from bench.audit.examined import Examined, Symptom
 from bench.audit.pairs import at_angles
 
 DEVIATION = 1e-3
@@ -19,8 +19,8 @@ SMALLEST_RAD = 1e-4
 """Digits may be lost at smaller angles."""
 
 
-def find(examined: Examined) -> Found | None:
-    """Most sizes are those of a form, and some are not, along the axis all the same."""
+def find(examined: Examined) -> Symptom | None:
+    """Find pairs whose answer has the right axis and the wrong length."""
     if not examined.form:
         return None
     right = np.linalg.norm(examined.truth, axis=1)
@@ -33,7 +33,7 @@ def find(examined: Examined) -> Found | None:
     low, high = f"{np.nanmin(ratio[bad]):.3g}", f"{np.nanmax(ratio[bad]):.3g}"
     times = low if low == high else f"{low} to {high}"
     text = f"for {bad.sum()} of {here.sum()} pairs |e| is {times} times what it is for others of the same angle"
-    return Found(text, examined.evidence(int(np.argmax(bad))))
+    return Symptom(text, examined.evidence(int(np.argmax(bad))))
 
 
 def depends_on_angle(examined: Examined, bad: np.ndarray) -> bool:

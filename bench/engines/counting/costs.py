@@ -15,7 +15,7 @@ import numpy as np
 from bench.base.errors import BadLaw
 from bench.engines.counting.counted import OPERATIONS, STAGES, TOTAL, Counted, Counts, OutsideDialect, Tally
 from bench.engines.counting.staged import law_of
-from bench.engines.counting.states import GAINS, State, states
+from bench.engines.counting.states import GAINS, CountedState, states
 from bench.law.contender import Contender
 from bench.law.inputs import NO_MEMORY
 
@@ -36,7 +36,7 @@ class Cost(NamedTuple):
     worst_at: str
 
 
-class Call(NamedTuple):
+class CountedCall(NamedTuple):
     """One counted call. `is_typical` if it is one of those the typical branch is chosen from."""
 
     state: Any
@@ -54,7 +54,7 @@ def cost(contender: Contender) -> Cost:
     return cost_of(contender, list(counted_calls(contender)), statistics.mode)
 
 
-def cost_of(one: Any, calls: list[Call], choose: Callable[[list[Counts]], Counts]) -> Cost:
+def cost_of(one: Any, calls: list[CountedCall], choose: Callable[[list[Counts]], Counts]) -> Cost:
     """Return the cost that calls show; choose: the typical one of what was counted in sampled states."""
     sampled = [call.counts for call in calls if call.is_typical]
     typical, worst = choose(sampled), max(calls, key=lambda call: size(call.counts))
@@ -85,7 +85,9 @@ def size(counts: Counts) -> tuple[int, int]:
     return sum(numbers[name] for name in OPERATIONS), flops(numbers)
 
 
-def counted_calls(contender: Contender, over: Iterable[State] | None = None) -> Iterator[Call]:
+def counted_calls(
+    contender: Contender, over: Iterable[CountedState] | None = None
+) -> Iterator[CountedCall]:
     """Yield all states counted, checked against the plain call; a law that raises costs what it computed until then."""
     tally = Tally()
     plain, counting = contender.law, law_of(contender, tally)
@@ -107,8 +109,13 @@ def counted_calls(contender: Contender, over: Iterable[State] | None = None) -> 
 
 
 def _call(
-    contender: Contender, plain: Callable, counting: Callable, tally: Tally, state: State, memory: tuple
-) -> tuple[Call, tuple]:
+    contender: Contender,
+    plain: Callable,
+    counting: Callable,
+    tally: Tally,
+    state: CountedState,
+    memory: tuple,
+) -> tuple[CountedCall, tuple]:
     """Return the call, and the memory the law left (empty for a law without, or if it raised)."""
     given = (state.R, state.omega, state.goal, GAINS, *memory)
     tally.stage = "regulate"
@@ -116,7 +123,9 @@ def _call(
     return call, want[1] if memory and want is not None else ()
 
 
-def checked(name: str, state: Any, tally: Tally, plain: Callable, counting: Callable) -> tuple[Call, Any]:
+def checked(
+    name: str, state: Any, tally: Tally, plain: Callable, counting: Callable
+) -> tuple[CountedCall, Any]:
     """Return a counted call, whose answer must be the plain one bit for bit; and that answer, None if it raised."""
     want, answer, trouble = None, None, None
     try:
@@ -138,7 +147,7 @@ def checked(name: str, state: Any, tally: Tally, plain: Callable, counting: Call
             f"'{name}' returns {values(answer)} when counted and {values(want)} when called with floats, at "
             f"{state.id}; a law must not depend on the type of its numbers"
         )
-    return Call(state, tally.take(), state.is_sampled), want
+    return CountedCall(state, tally.take(), state.is_sampled), want
 
 
 def counted(numbers: Any, tally: Tally) -> Any:

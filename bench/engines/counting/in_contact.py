@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from bench.engines.contact_episode import room, rows
-from bench.engines.counting.costs import Call, Cost, cost_of, rows_of
+from bench.engines.counting.costs import Cost, CountedCall, cost_of, rows_of
 from bench.engines.counting.counted import Tally
 from bench.engines.counting.on_arms import ARM_OF, ArmState, arm_states, call_on_arm, median
 from bench.engines.counting.states import GAINS
@@ -40,7 +40,9 @@ def rows_in_contact(controller: ContactController) -> Iterator[dict]:
     return rows_of(cost_in_contact(controller), {"controller": controller.name}, ("regulate", "invert"))
 
 
-def _call(controller: ContactController, held: Any, state: ArmState, draw: np.random.Generator) -> Call:
+def _call(
+    controller: ContactController, held: Any, state: ArmState, draw: np.random.Generator
+) -> CountedCall:
     f, m, v_d, f_d, m_d = (tuple(three) for three in draw.normal(size=(5, 3)))
     setpoint = Setpoint(state.goal.R, state.p_d, v_d, f_d, m_d)
     given, tally = (state.chain, setpoint, f, m, GAINS, TOUCH, state.D, state.fg), Tally()

@@ -13,7 +13,7 @@ import numpy as np
 
 import tasks
 from bench.engines.arm_episode import buffers
-from bench.engines.counting.costs import Call, Cost, checked, cost_of, counted, rows_of, size
+from bench.engines.counting.costs import Cost, CountedCall, checked, cost_of, counted, rows_of, size
 from bench.engines.counting.counted import Counts, Tally
 from bench.engines.counting.staged import in_stage, law_of, staged
 from bench.engines.counting.states import GAINS, goal_of
@@ -142,14 +142,18 @@ def _controller(contender: Contender, parts: Parts, tally: Tally | None) -> Call
     return controller
 
 
-def _call(contender: Contender, plain: Callable, counting: Callable, tally: Tally, state: ArmState) -> Call:
+def _call(
+    contender: Contender, plain: Callable, counting: Callable, tally: Tally, state: ArmState
+) -> CountedCall:
     memory = tuple(np.float64(x) for x in (*(contender.regulator.memory or ()), *NO_MEMORY)[: len(NO_MEMORY)])
     given = (state.chain, state.D, state.fg, state.goal, state.p_d, memory, GAINS)
     tally.stage = "linearize"
     return call_on_arm(contender.name, state, tally, given, plain, counting)
 
 
-def call_on_arm(name: str, state: ArmState, tally: Tally, given: tuple, plain: Callable, counting: Callable) -> Call:
+def call_on_arm(
+    name: str, state: ArmState, tally: Tally, given: tuple, plain: Callable, counting: Callable
+) -> CountedCall:
     """Return a counted call of what takes the type of its buffers last."""
     given_counted = counted(given, tally)
     call, _ = checked(name, state, tally, lambda: plain(*given, float), lambda: counting(*given_counted, object))

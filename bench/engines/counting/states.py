@@ -29,7 +29,7 @@ DECADES = range(1, 17)
 """Angles 10^-k rad from the goal; from k = 8 on, cos(angle / 2) is 1 in double precision."""
 
 
-class State(NamedTuple):
+class CountedState(NamedTuple):
     """What a law is called with, as numpy.float64; `is_sampled` if it counts towards the typical branch."""
 
     id: str
@@ -47,14 +47,20 @@ GAINS = Tuning(*(np.float64(number) for number in LIMITED))
 
 
 @functools.cache
-def states() -> tuple[State, ...]:
+def states() -> tuple[CountedState, ...]:
     """All of them, always the same, the sampled ones first."""
     starts = [(start, True) for start in tasks.start_set(SAMPLED, SAMPLE)]
     starts += [(start, False) for start in _near_identity()]
     starts += [(start, False) for name in DIRECTED for start in tasks.start_set(name)]
     paces = {"at rest": _doubles(AT_REST), "spinning": _doubles(SPIN)}
     return tuple(
-        State(f"{start.id} {word}", _rotation(start.quat_wxyz), omega, goal_of(start.goal_wxyz), is_sampled)
+        CountedState(
+            f"{start.id} {word}",
+            _rotation(start.quat_wxyz),
+            omega,
+            goal_of(start.goal_wxyz),
+            is_sampled,
+        )
         for start, is_sampled in starts
         for word, omega in paces.items()
     )

@@ -10,7 +10,7 @@ from functools import partial
 
 import numpy as np
 
-from bench.engines.metrics.contact_metric import Pose, Response, once_a_pose
+from bench.engines.metrics.contact_metric import ContactResponse, Pose, once_a_pose
 from bench.engines.metrics.measured_compliance import in_free_space
 from tasks.contact import Trial
 from tasks.contact_rest import WINDOW_S
@@ -80,7 +80,7 @@ def peak(pose: Pose, error_of: Callable[[Pose], np.ndarray]) -> float:
     return float(np.linalg.norm(error, axis=1).max()) if len(error) else np.nan
 
 
-def last(pose: Pose) -> Response | None:
+def last(pose: Pose) -> ContactResponse | None:
     """Return the one response of a pose if it ran to its end, at rest or at the horizon; else None."""
     return pose.first if pose.first.outcome == "done" else None
 
@@ -90,7 +90,7 @@ def scene_normal(trial: Trial) -> np.ndarray:
     return np.array(columns(trial.scene_wxyz)[2])
 
 
-def wrist_axis(one: Response) -> np.ndarray:
+def wrist_axis(one: ContactResponse) -> np.ndarray:
     """Return the wrist's z axis, N x 3 in the base frame, whatever the hand's frame."""
     return one.R @ np.array(columns(one.trial.mount_wxyz))[:, 2]
 

@@ -15,10 +15,10 @@ from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Trial
 
 if TYPE_CHECKING:
-    from bench.engines.contact_episode import Ended
+    from bench.engines.contact_episode import EndedEpisode
 
 
-class Response(NamedTuple):
+class ContactResponse(NamedTuple):
     """One episode, tick by tick, base frame: N ticks.
 
     time (N) [s]; R (N x 3 x 3), hand to base; omega (N x 3) [rad/s]; p (N x 3) [m]; force, moment (N x 3) on the hand
@@ -50,10 +50,10 @@ class Pose:
     task: ContactTask
     arm: Arm
     controller: ContactController
-    responses: tuple[Response, ...]
+    responses: tuple[ContactResponse, ...]
 
     @property
-    def first(self) -> Response:
+    def first(self) -> ContactResponse:
         """The only response, of most tasks."""
         return self.responses[0]
 
@@ -87,11 +87,24 @@ class ContactMetric(NamedTuple):
     measure: Callable[[Pose], float]
 
 
-def response(trial: Trial, ended: Ended) -> Response:
+def response(trial: Trial, ended: EndedEpisode) -> ContactResponse:
     """Return the arrays of an episode's record; ticks at which it holds nothing finite stay as they are."""
     from bench.engines.contact_episode import FORCE, GAP, LOAD, MOMENT, OMEGA, TURNED, P, R
 
     ends = (R, OMEGA, P, FORCE, MOMENT, GAP, TURNED, LOAD)
     time, columns, omega, p, force, moment, *scalars = np.split(ended.record, ends, axis=1)
     frames, (gap, turned, load) = columns.reshape(-1, 3, 3).transpose(0, 2, 1), (one[:, 0] for one in scalars)
-    return Response(trial, ended.outcome, time[:, 0], frames, omega, p, force, moment, gap, turned, load, ended.rested)
+    return ContactResponse(
+        trial,
+        ended.outcome,
+        time[:, 0],
+        frames,
+        omega,
+        p,
+        force,
+        moment,
+        gap,
+        turned,
+        load,
+        ended.rested,
+    )

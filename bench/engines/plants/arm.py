@@ -12,9 +12,9 @@ import numpy as np
 from bench.engines import arm_episode
 from bench.engines.arrays import Matrix, Vector
 from bench.engines.curve import keep_on_arm
-from bench.engines.loop import Act, Controller, Plant, Record, Sensed, begin, episodes_of
+from bench.engines.loop import Action, Controller, Plant, Record, Sensed, begin, episodes_of
+from bench.engines.mujoco_view import Simulated, compute, fill_inertia, place, step
 from bench.engines.plants.free_body import measure, quaternion
-from bench.engines.simulated import Simulated, compute, fill_inertia, place, step
 from bench.law.chain import Chain
 from bench.law.control.resolved_acceleration import BY_JOINT, Buffers, control
 from bench.law.inputs import AT_REST, Goal
@@ -24,7 +24,7 @@ from tasks.truth import haversine
 from tasks.verdict import GOING, check_command
 
 
-class Work(NamedTuple):
+class ArmWork(NamedTuple):
     """What a controller writes into: its buffers, D, fg, a Jacobian for the judge's look, and torques that are sent."""
 
     buffers: Buffers
@@ -34,18 +34,18 @@ class Work(NamedTuple):
     sent: Matrix
 
 
-class World(NamedTuple):
+class ArmWorld(NamedTuple):
     """The plant, of each start its state (`arm_episode.states`), the controller's model and what belongs to it."""
 
     sim: Simulated
     states: Matrix
     model: Simulated
-    work: Work
+    work: ArmWork
     controls: arm_episode.Controls
     joints: arm_episode.Joints
 
 
-class State(NamedTuple):
+class ArmPlantState(NamedTuple):
     """Hold the goal of the tool; the rest is MuJoCo's. path: angle of its last rotation [rad], where it is recorded."""
 
     quat_d: tuple
@@ -62,14 +62,14 @@ class Tool(NamedTuple):
     chain: Chain
 
 
-def work(n: int, late: int = -1, change: float = math.inf) -> Work:
+def work(n: int, late: int = -1, change: float = math.inf) -> ArmWork:
     """Return fresh buffers for n joints, whose motors give torques so many ticks late; -1: torques are not kept.
 
     change: by how much a torque changes in a tick at most [N m]; if it is finite, torques are kept.
     """
     late = max(late, 0) if change < math.inf else late
     G, sent = np.zeros((arm_episode.MOST,) * 2), np.zeros((2 + late if late >= 0 else 0, n))
-    return Work(arm_episode.buffers(n), np.zeros((n, n)), np.zeros(n), G, sent)
+    return ArmWork(arm_episode.buffers(n), np.zeros((n, n)), np.zeros(n), G, sent)
 
 
 @kernel
@@ -81,7 +81,7 @@ def reset(body, k, start):
     if states[k, at] == states[k, at]:
         p_d = (states[k, at], states[k, at + 1], states[k, at + 2])
     quat_d = (start[7], start[8], start[9], start[10])
-    return State(quat_d, Goal(from_quaternion(quat_d), AT_REST, AT_REST), p_d, 0.0)
+    return ArmPlantState(quat_d, Goal(from_quaternion(quat_d), AT_REST, AT_REST), p_d, 0.0)
 
 
 @kernel
@@ -96,7 +96,7 @@ def sense(body, state, tick, numbers):
 
 
 @kernel
-def advance(laws, body, state, act, gains, memory, numbers):
+def advance(laws, body, state, action, gains, memory, numbers):
     """Apply the torques, and let MuJoCo step."""
     for i in range(body.sim.n):
         body.sim.ctrl[i] = body.work.buffers.tau[i]
@@ -120,37 +120,39 @@ def command(laws, body, sensed, now, gains, memory, numbers):
     for i in range(n):
         work.fg[i] = model.qfrc_bias[i] - model.qfrc_passive[i]
     if controls.gives_torque == BY_JOINT:
-        q_d = body.states[now.k, 2 * n : 3 * n]
+        q_d = body.states[now.episode, 2 * n : 3 * n]
         arm_episode.face_joints(work.buffers.J, work.buffers.a, sim.qpos, q_d, body.joints.inertia, n)
     u, memory = control(
         laws.law, laws.second, controls.gives_torque, controls.rows,
-        sensed.more.chain, work.D, work.fg, sensed.goal, sensed.more.p_d, gains, memory, work.buffers,
+        sensed.extra.chain, work.D, work.fg, sensed.goal, sensed.extra.p_d, gains, memory, work.buffers,
     )  # fmt: skip
     if controls.is_cut > 0:
         arm_episode.cut(work.buffers.tau, body.joints.rated, n)
     if work.sent.shape[0] > 0:
-        arm_episode.drive(work.buffers.tau, work.sent, controls.share, controls.change, now.tick, work.fg, n)
+        arm_episode.drive(
+            work.buffers.tau, work.sent, controls.share, controls.change, now.number, work.fg, n
+        )
     total, _ = arm_episode.load(work.buffers.tau, body.joints.rated, n)
     failure = check_command(total, controls.torque_limit_squared)
-    return Act(u, u, dot(u, u), laws.third(sensed.R, sensed.goal.R), failure, ()), memory
+    return Action(u, u, dot(u, u), laws.third(sensed.R, sensed.goal.R), failure, ()), memory
 
 
 def loop_of(observe):
     """Return the loop of arms, for all of them and all contenders."""
 
     @kernel
-    def see(row, curves, now, body, sensed, act, before, numbers):
+    def see(row, curves, now, body, sensed, action, before, numbers):
         """Show the metrics a sample, and look at the conditioning."""
         sim, joints, work, n = body.sim, body.joints, body.work, body.sim.n
         sample = arm_episode.ArmSample(
-            now.tick * numbers.dt, numbers.dt, sensed.R, sensed.haversine, now.entered, now.at_rest, sensed.omega,
-            act.u, before, act.margin, sensed.more.p, sensed.more.p_d,
+            now.number * numbers.dt, numbers.dt, sensed.R, sensed.haversine, now.entered, now.at_rest, sensed.omega,
+            action.u, before, action.margin, sensed.extra.p, sensed.extra.p_d,
             arm_episode.seven(sim.qpos, n), arm_episode.seven(sim.qvel, n), arm_episode.seven(work.buffers.tau, n),
             joints.lower, joints.upper, joints.rated,
         )  # fmt: skip
         observe(row, sample)
-        keep_on_arm(curves, now.k, now.tick, sample)
-        if now.tick % arm_episode.PROBE_TICKS == 0 or act.failure != GOING:
-            arm_episode.probe(row, sensed.more.chain, sim.qpos, work.G, work.buffers.scratch)
+        keep_on_arm(curves, now.episode, now.number, sample)
+        if now.number % arm_episode.PROBE_TICKS == 0 or action.failure != GOING:
+            arm_episode.probe(row, sensed.extra.chain, sim.qpos, work.G, work.buffers.scratch)
 
     return episodes_of(ARM, Controller(begin, command), Record(see))

@@ -13,10 +13,10 @@ import numpy as np
 from bench.engines import contact_episode
 from bench.engines.arm_episode import MOST, cut, load, squared
 from bench.engines.arrays import Integers, Matrix, Vector
-from bench.engines.contact_episode import BROKEN, RESTED, Numbers, setpoint, wrench
-from bench.engines.loop import NO_ACT, Act, Controller, Plant, Record, Sensed, episodes_of
+from bench.engines.contact_episode import BROKEN, RESTED, ContactNumbers, setpoint, wrench
+from bench.engines.loop import NO_ACTION, Action, Controller, Plant, Record, Sensed, episodes_of
+from bench.engines.mujoco_view import Simulated, fill_inertia
 from bench.engines.native.trapped import BEGIN, RUNGE_KUTTA, STEP, advance_trapped
-from bench.engines.simulated import Simulated, fill_inertia
 from bench.law.chain import Chain
 from bench.law.control.hybrid import comply
 from bench.law.control.setpoint import ContactBuffers, ContactParameters, Rows
@@ -28,7 +28,7 @@ from tasks.contact_rest import has_left
 from tasks.verdict import GOING, check_command
 
 
-class Work(NamedTuple):
+class ContactWork(NamedTuple):
     """Buffers of a controller and of an episode: D (nv x nv), and the trial's pushes."""
 
     rows: Rows
@@ -40,7 +40,7 @@ class Work(NamedTuple):
     legs: Matrix
 
 
-class World(NamedTuple):
+class ContactWorld(NamedTuple):
     """A scene: the simulation with the arm's n joints first, and all that an episode needs.
 
     push: the wrench applied to the hand. gap, turned: places among the sensor values, -1 if there is none. batch,
@@ -56,32 +56,32 @@ class World(NamedTuple):
     batch: int
     callback: int
     asked: Integers
-    work: Work
-    shape: Numbers
+    work: ContactWork
+    shape: ContactNumbers
     touch: ContactParameters
     record: Matrix
     noise: Matrix
 
 
-def work(n: int, nv: int) -> Work:
+def work(n: int, nv: int) -> ContactWork:
     """Return fresh buffers for an arm of n joints in a scene of nv degrees of freedom."""
     D, legs = np.zeros((nv, nv)), np.zeros((MOST_LEGS, 6))
     room = contact_episode.rows(), contact_episode.room()
-    return Work(*room, np.zeros((6, MOST)), D, np.zeros(n), np.zeros(n), legs)
+    return ContactWork(*room, np.zeros((6, MOST)), D, np.zeros(n), np.zeros(n), legs)
 
 
-class State(NamedTuple):
+class ContactState(NamedTuple):
     """What is wanted at first; the tick, why MuJoCo ends the episode, or GOING, and the last reading of the wrench."""
 
     R_d: Rotation
     p_0: tuple
     tick: int
-    fate: int
+    ended_by: int
     f: tuple
     m: tuple
 
 
-class Hand(NamedTuple):
+class HandReading(NamedTuple):
     """The hand's place [m], force [N] and moment [N m] as they are read, its chain, and its place at first."""
 
     p: tuple
@@ -91,7 +91,7 @@ class Hand(NamedTuple):
     p_0: tuple
 
 
-class Rest(NamedTuple):
+class RestWatch(NamedTuple):
     """Hold the hand's place and the tick at which rest was last counted."""
 
     place: tuple
@@ -103,10 +103,10 @@ class Rest(NamedTuple):
 def reset(body, k, start):
     """Let MuJoCo compute what follows from the state that Python has put the scene into."""
     body.asked[2] = BEGIN
-    fate = BROKEN if advance_trapped(body) > 0 else GOING
+    ended_by = BROKEN if advance_trapped(body) > 0 else GOING
     body.asked[2] = RUNGE_KUTTA if body.sim.is_runge_kutta else STEP
     s, R_d = body.sim.sensordata, from_quaternion(body.shape.quat_d)
-    return State(R_d, (s[16], s[17], s[18]), 0, fate, AT_REST, AT_REST)
+    return ContactState(R_d, (s[16], s[17], s[18]), 0, ended_by, AT_REST, AT_REST)
 
 
 @kernel
@@ -129,21 +129,26 @@ def sense(body, state, tick, numbers):
     sim, s, speed = body.sim, body.sim.sensordata, squared(body.sim.qvel, body.sim.n)
     R, omega = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8])), (s[9], s[10], s[11])
     p, (f, m) = (s[16], s[17], s[18]), read_wrench(body, state, R)
-    hand = Hand(p, f, m, Chain(body.n, sim.xaxis, sim.xanchor, sim.qvel, p, R), state.p_0)
-    return Sensed(R, omega, Goal(state.R_d, AT_REST, AT_REST), 1.0, 0.0, speed, 0.0, state.fate, hand)
+    hand = HandReading(p, f, m, Chain(body.n, sim.xaxis, sim.xanchor, sim.qvel, p, R), state.p_0)
+    return Sensed(
+        R, omega, Goal(state.R_d, AT_REST, AT_REST), 1.0, 0.0, speed, 0.0, state.ended_by, hand
+    )
 
 
 @kernel
 def begin(laws, memory0, sensed_now):
     """Begin to count rest."""
-    return Rest(sensed_now.more.p, sensed_now.goal.R, 0), NO_ACT
+    return RestWatch(sensed_now.extra.p, sensed_now.goal.R, 0), NO_ACTION
 
 
 @kernel
 def command(laws, body, sensed_now, now, gains, memory, numbers):
-    """Compute the torques of a controller, whose rows are the law; the act's square is the largest over its rated."""
-    sim, shape, work, hand, n = body.sim, body.shape, body.work, sensed_now.more, body.n
-    wanted = setpoint(sensed_now.goal.R, hand.p_0, shape, now.tick * numbers.dt)
+    """Compute the torques of a controller, whose rows are the law.
+
+    The square of the action is that of the largest torque over its rated one.
+    """
+    sim, shape, work, hand, n = body.sim, body.shape, body.work, sensed_now.extra, body.n
+    wanted = setpoint(sensed_now.goal.R, hand.p_0, shape, now.number * numbers.dt)
     fill_inertia(sim, work.D)
     for i in range(n):
         work.fg[i] = sim.qfrc_bias[i] - sim.qfrc_passive[i]
@@ -155,19 +160,26 @@ def command(laws, body, sensed_now, now, gains, memory, numbers):
         cut(work.tau, shape.rated, n)
     total, largest = load(work.tau, shape.rated, n)
     failure = check_command(total, numbers.command_limit_squared)
-    if has_left(shape.rest, now.tick, hand.p, sensed_now.R, memory.place, memory.frame):
-        memory = Rest(hand.p, sensed_now.R, now.tick)
-    elif failure == GOING and shape.rest.ticks > 0 and now.tick - memory.since >= shape.rest.ticks:
+    if has_left(shape.rest, now.number, hand.p, sensed_now.R, memory.place, memory.frame):
+        memory = RestWatch(hand.p, sensed_now.R, now.number)
+    elif (
+        failure == GOING and shape.rest.ticks > 0 and now.number - memory.since >= shape.rest.ticks
+    ):
         failure = RESTED
-    return Act(AT_REST, AT_REST, largest, math.nan, failure, ()), memory
+    return Action(AT_REST, AT_REST, largest, math.nan, failure, ()), memory
 
 
 @kernel
-def see(row, curves, now, body, sensed_now, act, before, numbers):
+def see(row, curves, now, body, sensed_now, action, before, numbers):
     """Write the tick's line of the record."""
-    s, R, hand, record = body.sim.sensordata, sensed_now.R, sensed_now.more, body.record[now.tick]
+    s, R, hand, record = (
+        body.sim.sensordata,
+        sensed_now.R,
+        sensed_now.extra,
+        body.record[now.number],
+    )
     f, m = wrench(R, s)
-    record[0] = now.tick * numbers.dt
+    record[0] = now.number * numbers.dt
     for i in range(3):
         record[1 + i] = R.n[i]
         record[4 + i] = R.o[i]
@@ -178,11 +190,11 @@ def see(row, curves, now, body, sensed_now, act, before, numbers):
         record[19 + i] = m[i]
     record[22] = s[body.gap] if body.gap >= 0 else 0.0
     record[23] = s[body.turned] if body.turned >= 0 else 0.0
-    record[24] = sqrt(act.squared)
+    record[24] = sqrt(action.squared)
 
 
 @kernel
-def advance(laws, body, state, act, gains, memory, numbers):
+def advance(laws, body, state, action, gains, memory, numbers):
     """Apply the torques and the trial's push, keep the reading of the wrench, and let MuJoCo step."""
     s = body.sim.sensordata
     f, m = read_wrench(body, state, Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8])))
@@ -191,8 +203,8 @@ def advance(laws, body, state, act, gains, memory, numbers):
     now = leg(body.shape.legs, state.tick, numbers.ticks)
     for i in range(6):
         body.push[i] = body.work.legs[now, i]
-    fate = BROKEN if advance_trapped(body) > 0 else GOING
-    return State(state.R_d, state.p_0, state.tick + 1, fate, f, m), memory
+    ended_by = BROKEN if advance_trapped(body) > 0 else GOING
+    return ContactState(state.R_d, state.p_0, state.tick + 1, ended_by, f, m), memory
 
 
 @kernel

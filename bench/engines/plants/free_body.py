@@ -8,8 +8,8 @@ import math
 from typing import NamedTuple
 
 from bench.engines.arrays import Matrix
-from bench.engines.loop import ACCELERATION, Act, Plant, Sensed, accelerate, episodes_of, sampled
-from bench.engines.simulated import Simulated, actuate, place, step
+from bench.engines.loop import ACCELERATION, Action, Plant, Sensed, accelerate, episodes_of, sampled
+from bench.engines.mujoco_view import Simulated, actuate, place, step
 from bench.law.inputs import AT_REST, Goal
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, dot, from_quaternion, rotate
@@ -17,7 +17,7 @@ from tasks.truth import angle, haversine
 from tasks.verdict import GOING, check_command
 
 
-class World(NamedTuple):
+class FreeBodyWorld(NamedTuple):
     """The simulation, whether an actuator makes the command, and of each start qpos and qvel."""
 
     sim: Simulated
@@ -25,7 +25,7 @@ class World(NamedTuple):
     states: Matrix
 
 
-class State(NamedTuple):
+class FreeBodyState(NamedTuple):
     """Hold the goal of the body; the rest is MuJoCo's."""
 
     quat_d: tuple
@@ -37,7 +37,7 @@ def reset(body, k, start):
     """Place the body at a start."""
     place(body.sim, body.states, k)
     quat_d = (start[7], start[8], start[9], start[10])
-    return State(quat_d, Goal(from_quaternion(quat_d), AT_REST, AT_REST))
+    return FreeBodyState(quat_d, Goal(from_quaternion(quat_d), AT_REST, AT_REST))
 
 
 @kernel
@@ -61,19 +61,21 @@ def command(laws, body, sensed, now, gains, memory, numbers):
     """Command what the law says, or read what MuJoCo's actuator will do."""
     if body.has_servo:
         ctrl, f = body.sim.ctrl, body.sim.qfrc_actuator
-        ctrl[0], ctrl[1], ctrl[2], ctrl[3] = sensed.more
+        ctrl[0], ctrl[1], ctrl[2], ctrl[3] = sensed.extra
         actuate(body.sim)
         u = rotate(sensed.R, (f[0], f[1], f[2]))
         squared = dot(u, u)
-        return Act(u, u, squared, math.nan, check_command(squared, numbers.command_limit_squared), ()), memory
+        return Action(
+            u, u, squared, math.nan, check_command(squared, numbers.command_limit_squared), ()
+        ), memory
     return accelerate(laws, body, sensed, now, gains, memory, numbers)
 
 
 @kernel
-def advance(laws, body, state, act, gains, memory, numbers):
+def advance(laws, body, state, action, gains, memory, numbers):
     """Let MuJoCo step."""
     if not body.has_servo:
-        body.sim.ctrl[0], body.sim.ctrl[1], body.sim.ctrl[2] = act.u
+        body.sim.ctrl[0], body.sim.ctrl[1], body.sim.ctrl[2] = action.u
     step(body.sim)
     return state, memory
 

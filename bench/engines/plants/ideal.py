@@ -12,7 +12,7 @@ from bench.law.so3 import Rotation, dot, from_quaternion
 from tasks.verdict import DIVERGED, GOING
 
 
-class State(NamedTuple):
+class IdealState(NamedTuple):
     """Orientation, angular velocity, goal, and the steps taken."""
 
     R: Rotation
@@ -26,7 +26,7 @@ def reset(body, k, start):
     """Place the body at a start."""
     R = from_quaternion((start[0], start[1], start[2], start[3]))
     R_d = from_quaternion((start[7], start[8], start[9], start[10]))
-    return State(R, (start[4], start[5], start[6]), Goal(R_d, AT_REST, AT_REST), NO_EFFORT)
+    return IdealState(R, (start[4], start[5], start[6]), Goal(R_d, AT_REST, AT_REST), NO_EFFORT)
 
 
 @kernel
@@ -34,8 +34,8 @@ def sense(body, state, tick, numbers):
     """Give the state itself; an episode that takes too many steps ends, and its row is not used."""
     R, omega, goal, effort = state
     speed = dot(omega, omega)
-    fate = DIVERGED if effort.steps > numbers.most_steps else GOING
-    return Sensed(R, omega, goal, haversine(R, goal.R), speed, speed, speed, fate, ())
+    ended_by = DIVERGED if effort.steps > numbers.most_steps else GOING
+    return Sensed(R, omega, goal, haversine(R, goal.R), speed, speed, speed, ended_by, ())
 
 
 @kernel
@@ -45,25 +45,29 @@ def measure(body, state, sensed):
 
 
 @kernel
-def by_whole_steps(laws, body, state, act, gains, memory, numbers):
+def by_whole_steps(laws, body, state, action, gains, memory, numbers):
     """Take one Runge-Kutta step a tick."""
-    R, omega = rk4_step(laws.law, state.R, state.omega, act.u, state.goal, gains, memory, numbers.dt)
-    return State(R, omega, state.goal, state.effort), memory
+    R, omega = rk4_step(
+        laws.law, state.R, state.omega, action.u, state.goal, gains, memory, numbers.dt
+    )
+    return IdealState(R, omega, state.goal, state.effort), memory
 
 
 @kernel
-def by_refined_steps(laws, body, state, act, gains, memory, numbers):
+def by_refined_steps(laws, body, state, action, gains, memory, numbers):
     """Take steps as short as `refined` finds them necessary."""
     R, omega, goal, effort = state
-    R, omega, memory, effort = refined_step(laws.law, R, omega, act.u, goal, gains, memory, numbers, effort)
-    return State(R, omega, goal, effort), memory
+    R, omega, memory, effort = refined_step(
+        laws.law, R, omega, action.u, goal, gains, memory, numbers, effort
+    )
+    return IdealState(R, omega, goal, effort), memory
 
 
 @kernel
-def by_held_command(laws, body, state, act, gains, memory, numbers):
+def by_held_command(laws, body, state, action, gains, memory, numbers):
     """Hold the command over the tick."""
-    R, omega = held_step(state.R, state.omega, act.u, numbers.dt)
-    return State(R, omega, state.goal, state.effort), memory
+    R, omega = held_step(state.R, state.omega, action.u, numbers.dt)
+    return IdealState(R, omega, state.goal, state.effort), memory
 
 
 @kernel

@@ -14,9 +14,9 @@ import numpy as np
 from bench.engines.arm_episode import MOST, load
 from bench.engines.arrays import Matrix, Vector
 from bench.engines.episode import FIRST_METRIC
-from bench.engines.loop import Act, Controller, Record, episodes_of
+from bench.engines.loop import Action, Controller, Record, episodes_of
+from bench.engines.mujoco_view import Simulated, compute, fill_inertia
 from bench.engines.plants import arm
-from bench.engines.simulated import Simulated, compute, fill_inertia
 from bench.law.chain import twist
 from bench.law.contenders.jacobians.geometric import fill
 from bench.law.control.unshaped import apparent_inertia, damp_elbow
@@ -46,7 +46,7 @@ class Springs(NamedTuple):
     is_whole: int
 
 
-class World(NamedTuple):
+class ImpedanceWorld(NamedTuple):
     """The arm, of each start its state, another arm that stands where it is, for gravity, buffers and springs.
 
     K: stiffnesses. v, e: the tool's velocity, and the springs' wrench. damp, elbow, added: torques [N m]; before: rates
@@ -56,7 +56,7 @@ class World(NamedTuple):
     sim: Simulated
     states: Matrix
     still: Simulated
-    work: arm.Work
+    work: arm.ArmWork
     springs: Springs
     D: Matrix
     K: Vector
@@ -70,20 +70,24 @@ class World(NamedTuple):
     ends: Matrix
 
 
-def world(sim: Simulated, still: Simulated, states: np.ndarray, springs: Springs, rated) -> World:
+def world(
+    sim: Simulated, still: Simulated, states: np.ndarray, springs: Springs, rated
+) -> ImpedanceWorld:
     """Return the world of an arm under springs."""
     n = sim.n
     K = np.repeat((springs.translation, springs.rotation), 3)
     D, ends = np.zeros((MOST, MOST)), np.zeros((len(states), 2 * n))
     (v, e), (damp, elbow, added, before) = np.zeros((2, 6)), np.zeros((4, n))
     of_joints = {"damp": damp, "elbow": elbow, "added": added, "before": before, "rated": np.array(rated, dtype=float)}
-    return World(sim, states, still, arm.work(n), springs, D, K, v, e, ends=ends, **of_joints)
+    return ImpedanceWorld(
+        sim, states, still, arm.work(n), springs, D, K, v, e, ends=ends, **of_joints
+    )
 
 
 @kernel
 def begin(laws, memory0, sensed):
     """Start with the law's own memory; more than the command is kept the first one."""
-    return (memory0, AT_REST), Act(AT_REST, AT_REST, 0.0, math.nan, GOING, AT_REST)
+    return (memory0, AT_REST), Action(AT_REST, AT_REST, 0.0, math.nan, GOING, AT_REST)
 
 
 @kernel
@@ -95,12 +99,12 @@ def command(laws, body, sensed, now, gains, memory, numbers):
         still.qpos[i] = sim.qpos[i]
     compute(still)
     fill_inertia(sim, work.D)
-    fill(J, sensed.more.chain)
+    fill(J, sensed.extra.chain)
     apparent_inertia(J, work.D, work.G, n, work.buffers.scratch)
     laws.second(body.K, work.G, springs.zeta, body.D, work.buffers.scratch)
     u, law, _ = laws.law(sensed.R, AT_REST, sensed.goal, gains, memory[0])
-    pdot, omega = twist(sensed.more.chain)
-    away = minus(sensed.more.p_d, sensed.more.p)
+    pdot, omega = twist(sensed.extra.chain)
+    away = minus(sensed.extra.p_d, sensed.extra.p)
     for i in range(3):
         body.e[i], body.e[3 + i] = springs.translation * away[i], springs.rotation * u[i] / gains.kp
         body.v[i], body.v[3 + i] = pdot[i], omega[i]
@@ -116,25 +120,28 @@ def command(laws, body, sensed, now, gains, memory, numbers):
         tau[i] += gravity + body.elbow[i] - body.damp[i] + (beside if springs.is_whole > 0 else 0.0)
         body.before[i] = sim.qvel[i]
     total, _ = load(tau, body.rated, n)
-    failure, first = check_command(total, numbers.command_limit_squared), u if now.tick == 0 else memory[1]
-    return Act(u, u, dot(u, u), math.nan, failure, first), (law, first)
+    failure, first = (
+        check_command(total, numbers.command_limit_squared),
+        u if now.number == 0 else memory[1],
+    )
+    return Action(u, u, dot(u, u), math.nan, failure, first), (law, first)
 
 
 @kernel
-def see(row, curves, now, body, sensed, act, before, numbers):
+def see(row, curves, now, body, sensed, action, before, numbers):
     """Keep the greatest strain, overshoot and distance."""
     _, largest = load(body.work.buffers.tau, body.rated, body.sim.n)
     row[STRAIN] = max(row[STRAIN], sqrt(largest))
-    against, square = -dot(act.u, act.more), dot(act.more, act.more)
+    against, square = -dot(action.u, action.extra), dot(action.extra, action.extra)
     if against > row[OVERSHOOT] * square:
         row[OVERSHOOT] = against / square
-    away = minus(sensed.more.p_d, sensed.more.p)
+    away = minus(sensed.extra.p_d, sensed.extra.p)
     off = sqrt(dot(away, away))
     row[OFF] = max(row[OFF], off)
 
 
 @kernel
-def account(row, body, state, sensed, act, tick, numbers):
+def account(row, body, state, sensed, action, tick, numbers):
     """Add up the work of a tick."""
     for i in range(body.sim.n):
         turned = 0.5 * numbers.dt * (body.before[i] + body.sim.qvel[i])

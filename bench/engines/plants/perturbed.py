@@ -12,7 +12,7 @@ import numpy as np
 from bench.engines.arrays import Cube, Matrix, Three, Vector
 from bench.engines.episode import FIRST_METRIC, Numbers
 from bench.engines.ideal import angle_between, haversine, plus
-from bench.engines.loop import Act, Controller, Plant, Sensed, episodes_of, sampled
+from bench.engines.loop import Action, Controller, Plant, Sensed, episodes_of, sampled
 from bench.engines.plants.goals import NO_BAND, restart
 from bench.engines.plants.hooks import commanded, fed_forward, goal_at, inertia_of, measured
 from bench.engines.plants.ideal import measure
@@ -68,7 +68,7 @@ def steps_of(condition: Condition) -> int:
     return max(1, math.ceil(condition.loop.period_s / STEP_S - 1e-9))
 
 
-class World(NamedTuple):
+class PerturbedWorld(NamedTuple):
     """A condition, and what the plant reads of it.
 
     Attributes:
@@ -92,10 +92,10 @@ class World(NamedTuple):
     fresh: Vector
 
 
-def world(condition: Condition, noise: np.ndarray, rows: np.ndarray) -> World:
+def world(condition: Condition, noise: np.ndarray, rows: np.ndarray) -> PerturbedWorld:
     """Return the world of a condition and of rows as they are at first."""
     times = timing(condition)
-    return World(
+    return PerturbedWorld(
         condition=condition,
         timing=times,
         inertia=inertia_of(condition),
@@ -107,7 +107,7 @@ def world(condition: Condition, noise: np.ndarray, rows: np.ndarray) -> World:
     )
 
 
-class State(NamedTuple):
+class PerturbedState(NamedTuple):
     """The body, and the goal at first; where it jumps, after the jump."""
 
     R: Rotation
@@ -116,15 +116,21 @@ class State(NamedTuple):
 
 
 class Periodic(NamedTuple):
-    """Hold what a controller that runs once a period stores: number of periods, the last command, as it was given.
+    """Hold what a controller that runs once a period stores.
 
-    law, first: the law's memory, now and at first.
+    Attributes:
+        law: The law's memory.
+        periods: Number of periods.
+        u: The last command.
+        raw: The last command as the law returned it.
+        margin: Its margin.
+        first: The law's memory at first.
     """
 
     law: tuple
     periods: int
     u: tuple
-    given: tuple
+    raw: tuple
     margin: float
     first: tuple
 
@@ -136,7 +142,7 @@ def reset(body, k, start):
         start[11] = NO_BAND
     R = from_quaternion((start[0], start[1], start[2], start[3]))
     R_0 = from_quaternion((start[7], start[8], start[9], start[10]))
-    return State(R, (start[4], start[5], start[6]), R_0)
+    return PerturbedState(R, (start[4], start[5], start[6]), R_0)
 
 
 @kernel
@@ -146,49 +152,62 @@ def sense(body, state, tick, numbers):
     held = IDENTITY if tick < body.timing.jump else R_0
     goal = goal_at(body.condition, Goal(held, AT_REST, AT_REST), tick * numbers.dt)
     behind = minus(omega, goal.omega)
-    turning, speed = dot(behind, behind), dot(omega, omega)
-    return Sensed(R, omega, goal, haversine(R, goal.R), turning, speed, turning, GOING, ())
+    behind_squared, speed_squared = dot(behind, behind), dot(omega, omega)
+    return Sensed(
+        R,
+        omega,
+        goal,
+        haversine(R, goal.R),
+        behind_squared,
+        speed_squared,
+        behind_squared,
+        GOING,
+        (),
+    )
 
 
 @kernel
-def advance(laws, body, state, act, gains, memory, numbers):
+def advance(laws, body, state, action, gains, memory, numbers):
     """Move the body one step."""
-    R, omega = step(state.R, state.omega, act.u, body.inertia, numbers.dt)
-    return State(R, omega, state.R_0), memory
+    R, omega = step(state.R, state.omega, action.u, body.inertia, numbers.dt)
+    return PerturbedState(R, omega, state.R_0), memory
 
 
 @kernel
 def begin(laws, memory0, sensed):
     """Start with the law's own memory, and no command."""
-    return Periodic(memory0, 0, AT_REST, AT_REST, math.nan, memory0), Act(AT_REST, AT_REST, 0.0, math.nan, GOING, 0.0)
+    stored = Periodic(memory0, 0, AT_REST, AT_REST, math.nan, memory0)
+    return stored, Action(AT_REST, AT_REST, 0.0, math.nan, GOING, 0.0)
 
 
 @kernel
 def moment_of(body, sensed, now, period, numbers):
     """Return what a hook can read of the beginning of a period."""
-    drawn = body.noise[now.k, period] if body.is_noisy else body.noise[0, 0]
+    drawn = body.noise[now.episode, period] if body.is_noisy else body.noise[0, 0]
     noise = (drawn[0], drawn[1], drawn[2], drawn[3], drawn[4], drawn[5])
-    time_s, period_s = now.tick * numbers.dt, body.timing.steps * numbers.dt
+    time_s, period_s = now.number * numbers.dt, body.timing.steps * numbers.dt
     return Moment(time_s, period_s, sensed.R, sensed.omega, sensed.goal.R, noise)
 
 
 @kernel
 def command(laws, body, sensed, now, gains, memory, numbers):
-    """Ask the law once a period, and apply what it commanded a delay ago; more: how far this command jumps."""
+    """Ask the law once a period, and apply what it commanded a delay ago; extra: how far this command jumps."""
     condition, timing, sent = body.condition, body.timing, body.sent
-    law, periods, u, given, margin, first = memory
+    law, periods, u, raw, margin, first = memory
     steps, slots, failure, jump = timing.steps, sent.shape[0], GOING, 0.0
-    if now.tick == periods * steps:
+    if now.number == periods * steps:
         before, goal = u, sensed.goal
-        if timing.resets and 0 <= now.tick - timing.jump < steps:
+        if timing.resets and 0 <= now.number - timing.jump < steps:
             law = first
         moment = moment_of(body, sensed, now, periods, numbers)
-        R, turning = measured(condition, (sensed.R, sensed.omega), moment)
+        R, omega = measured(condition, (sensed.R, sensed.omega), moment)
         rate, acceleration = fed_forward(condition, (goal.omega, goal.alpha), moment)
-        given, law, margin = laws.law(R, minus(turning, rate), Goal(goal.R, AT_REST, AT_REST), gains, law)
-        u = given
+        raw, law, margin = laws.law(
+            R, minus(omega, rate), Goal(goal.R, AT_REST, AT_REST), gains, law
+        )
+        u = raw
         if body.has_moving_goal:
-            u = carried_along(u, turning, rate, acceleration)
+            u = carried_along(u, omega, rate, acceleration)
         u = commanded(condition, u, moment)
         failure = check_command(dot(u, u), numbers.command_limit_squared)
         if periods > 0 and failure == GOING:
@@ -199,14 +218,15 @@ def command(laws, body, sensed, now, gains, memory, numbers):
     applied = u
     if timing.late > 0 or steps > 1:
         applied = AT_REST
-        if now.tick >= timing.late:
-            slot = ((now.tick - timing.late) // steps) % slots
+        if now.number >= timing.late:
+            slot = ((now.number - timing.late) // steps) % slots
             applied = (sent[slot, 0], sent[slot, 1], sent[slot, 2])
-    return Act(applied, given, dot(u, u), margin, failure, jump), Periodic(law, periods, u, given, margin, first)
+    action = Action(applied, raw, dot(u, u), margin, failure, jump)
+    return action, Periodic(law, periods, u, raw, margin, first)
 
 
 @kernel
-def account(row, body, state, sensed, act, tick, numbers):
+def account(row, body, state, sensed, action, tick, numbers):
     """Add up the errors of the tail."""
     extra = row[row.shape[0] - EXTRA :]
     if tick > numbers.ticks - body.timing.tail:
@@ -222,9 +242,9 @@ def loop_of(observe):
     show = metrics.see
 
     @kernel
-    def see(row, curves, now, body, sensed, act, before, numbers):
-        row[row.shape[0] - EXTRA + VARIATION] += act.more
-        show(row, curves, now, body, sensed, act, before, numbers)
+    def see(row, curves, now, body, sensed, action, before, numbers):
+        row[row.shape[0] - EXTRA + VARIATION] += action.extra
+        show(row, curves, now, body, sensed, action, before, numbers)
 
     plant = Plant(reset, sense, advance, measure)
     return episodes_of(plant, Controller(begin, command), metrics._replace(see=see, account=account, restart=restart))

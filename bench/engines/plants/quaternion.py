@@ -11,7 +11,17 @@ from typing import NamedTuple
 from bench.engines.arrays import Matrix, Three
 from bench.engines.episode import FIRST_METRIC
 from bench.engines.ideal import plus
-from bench.engines.loop import NO_ACT, Act, Controller, Plant, Record, Sensed, accelerate, begin, episodes_of
+from bench.engines.loop import (
+    NO_ACTION,
+    Action,
+    Controller,
+    Plant,
+    Record,
+    Sensed,
+    accelerate,
+    begin,
+    episodes_of,
+)
 from bench.law.inputs import AT_REST, NO_MEMORY, Goal
 from bench.law.scalar import kernel, sqrt
 from bench.law.so3 import cross, dot, from_quaternion
@@ -23,7 +33,7 @@ PEAK, OFF, PATH = range(FIRST_METRIC, FIRST_METRIC + 3)
 """A row's columns after the judge's: greatest |u| [rad/s^2], greatest angle to the true goal, path turned [rad]."""
 
 
-class State(NamedTuple):
+class QuaternionState(NamedTuple):
     """The body, its goal, and the angle of its last rotation [rad]."""
 
     quat: tuple
@@ -36,7 +46,9 @@ class State(NamedTuple):
 def reset(body, k, start):
     """Place the body at a start."""
     quat_d = (start[7], start[8], start[9], start[10])
-    return State((start[0], start[1], start[2], start[3]), (start[4], start[5], start[6]), quat_d, 0.0)
+    return QuaternionState(
+        (start[0], start[1], start[2], start[3]), (start[4], start[5], start[6]), quat_d, 0.0
+    )
 
 
 @kernel
@@ -55,12 +67,12 @@ def measure(body, state, sensed):
 
 
 @kernel
-def see(row, curves, now, body, sensed, act, before, numbers):
+def see(row, curves, now, body, sensed, action, before, numbers):
     """Keep the greatest command."""
-    row[PEAK] = max(row[PEAK], sqrt(dot(act.u, act.u)))
+    row[PEAK] = max(row[PEAK], sqrt(dot(action.u, action.u)))
 
 
-class Stream(NamedTuple):
+class SentGoals(NamedTuple):
     """Goals as they come and as they are, a quaternion each tick; is_raw: the spring on it as it came commands."""
 
     goals: Matrix
@@ -73,36 +85,38 @@ def sense_stream(body, state, tick, numbers):
     """Give the state, and the goal of this tick; after the last one there is none other."""
     i = min(tick, body.goals.shape[0] - 1)
     quat_d = (body.goals[i, 0], body.goals[i, 1], body.goals[i, 2], body.goals[i, 3])
-    return sense(body, State(state.quat, state.omega, quat_d, state.path), tick, numbers)
+    return sense(body, QuaternionState(state.quat, state.omega, quat_d, state.path), tick, numbers)
 
 
 @kernel
 def follow_stream(laws, body, sensed, now, gains, memory, numbers):
     """Command what the law says, or the spring on the quaternion as it came, whose sign is the stream's."""
     if body.is_raw:
-        q, (w, x, y, z) = sensed.more
+        q, (w, x, y, z) = sensed.extra
         omega = sensed.omega
         e_x = w * -q[1] + x * q[0] - y * q[3] + z * q[2]
         e_y = w * -q[2] + y * q[0] - z * q[1] + x * q[3]
         e_z = w * -q[3] + z * q[0] - x * q[2] + y * q[1]
         s = 2.0 * gains.kp
         u = (s * e_x - gains.kv * omega[0], s * e_y - gains.kv * omega[1], s * e_z - gains.kv * omega[2])
-        return Act(u, u, dot(u, u), math.nan, GOING, ()), memory
+        return Action(u, u, dot(u, u), math.nan, GOING, ()), memory
     return accelerate(laws, body, sensed, now, gains, memory, numbers)
 
 
 @kernel
-def hold_over_tick(laws, body, state, act, gains, memory, numbers):
+def hold_over_tick(laws, body, state, action, gains, memory, numbers):
     """Let omega grow by u dt, and turn the body by their mean times dt."""
-    omega, u, dt = state.omega, act.u, numbers.dt
+    omega, u, dt = state.omega, action.u, numbers.dt
     h = 0.5 * dt * dt
     turn = (dt * omega[0] + h * u[0], dt * omega[1] + h * u[1], dt * omega[2] + h * u[2])
     omega = (omega[0] + dt * u[0], omega[1] + dt * u[1], omega[2] + dt * u[2])
-    return State(turned(state.quat, turn), omega, state.quat_d, sqrt(dot(turn, turn))), memory
+    return QuaternionState(
+        turned(state.quat, turn), omega, state.quat_d, sqrt(dot(turn, turn))
+    ), memory
 
 
 @kernel
-def account_for_stream(row, body, state, sensed, act, tick, numbers):
+def account_for_stream(row, body, state, sensed, action, tick, numbers):
     """Add up the path, and keep the greatest angle to the true goal."""
     true = body.truth[tick - 1]
     row[PATH] += state.path
@@ -152,7 +166,7 @@ def sense_unit(body, state, tick, numbers):
 @kernel
 def begin_state(laws, memory0, sensed):
     """Start with the law's own state, its rate, and no command."""
-    return (laws.second(from_quaternion(sensed.more[0])), NO_MEMORY), NO_ACT
+    return (laws.second(from_quaternion(sensed.extra[0])), NO_MEMORY), NO_ACTION
 
 
 @kernel
@@ -161,13 +175,13 @@ def command_with_state(laws, body, sensed, now, gains, memory, numbers):
     u, rate = laws.law(sensed.R, sensed.omega, sensed.goal, gains, memory[0])
     squared = dot(u, u)
     failure = check_command(squared, numbers.command_limit_squared)
-    return Act(u, u, squared, math.nan, failure, ()), (memory[0], rate)
+    return Action(u, u, squared, math.nan, failure, ()), (memory[0], rate)
 
 
 @kernel
-def integrate(laws, body, state, act, gains, memory, numbers):
+def integrate(laws, body, state, action, gains, memory, numbers):
     """Take the body and the law's state one Runge-Kutta step on under the disturbance."""
-    h, u = numbers.dt, act.u
+    h, u = numbers.dt, action.u
     first, rate = memory
     goal = Goal(from_quaternion(state.quat_d), AT_REST, AT_REST)
     q_sum, omega_sum, state_sum = state.quat, state.omega, first
@@ -182,7 +196,7 @@ def integrate(laws, body, state, act, gains, memory, numbers):
         ahead = h if stage == 2 else 0.5 * h
         at, pace = shifted(state.quat, ahead, turning), plus(state.omega, ahead, gained)
         kept = shifted(first, ahead, rate)
-    return State(unit(q_sum), omega_sum, state.quat_d, 0.0), (state_sum, rate)
+    return QuaternionState(unit(q_sum), omega_sum, state.quat_d, 0.0), (state_sum, rate)
 
 
 def streamed():

@@ -10,9 +10,9 @@ from typing import NamedTuple
 from bench.engines.arm_episode import squared
 from bench.engines.arrays import Matrix
 from bench.engines.episode import FIRST_METRIC
-from bench.engines.loop import Act, Controller, Plant, Record, Sensed, episodes_of
+from bench.engines.loop import Action, Controller, Plant, Record, Sensed, episodes_of
+from bench.engines.mujoco_view import Simulated, compute
 from bench.engines.plants import arm, quaternion
-from bench.engines.simulated import Simulated, compute
 from bench.law.contenders.jacobians.geometric import fill
 from bench.law.control.velocity import velocity
 from bench.law.inputs import AT_REST
@@ -35,19 +35,19 @@ class Pace(NamedTuple):
     servo: Servo
 
 
-class ArmWorld(NamedTuple):
+class VelocityWorld(NamedTuple):
     """An arm, of each start its state, buffers with the identity for D, and the pace."""
 
     sim: Simulated
     states: Matrix
-    work: arm.Work
+    work: arm.ArmWork
     pace: Pace
 
 
-class Told(NamedTuple):
+class Unlimited(NamedTuple):
     """A velocity before the limiter; of joints their squared rate, and how far the tool is from its place [m]."""
 
-    asked: tuple
+    omega: tuple
     rate: float
     off: float
 
@@ -55,32 +55,32 @@ class Told(NamedTuple):
 @kernel
 def begin(laws, memory0, sensed):
     """Start with the law's own memory, and no command."""
-    return memory0, Act(AT_REST, AT_REST, 0.0, math.nan, GOING, Told(AT_REST, 0.0, 0.0))
+    return memory0, Action(AT_REST, AT_REST, 0.0, math.nan, GOING, Unlimited(AT_REST, 0.0, 0.0))
 
 
 @kernel
 def command(laws, body, sensed, now, gains, memory, numbers):
     """Command an angular velocity: laws are the law and its limiter, limit(omega, K) -> omega."""
     u, memory, _ = laws.law(sensed.R, AT_REST, sensed.goal, gains, memory)
-    asked, omega = velocity(laws.second, u, body.K, gains.kp)
+    unlimited, omega = velocity(laws.second, u, body.K, gains.kp)
     speed = dot(omega, omega)
     failure = check_command(speed, numbers.speed_limit_squared)
-    return Act(omega, u, speed, math.nan, failure, Told(asked, 0.0, 0.0)), memory
+    return Action(omega, u, speed, math.nan, failure, Unlimited(unlimited, 0.0, 0.0)), memory
 
 
 @kernel
-def follow(laws, body, state, act, gains, memory, numbers):
+def follow(laws, body, state, action, gains, memory, numbers):
     """Turn the body by its velocity times dt."""
-    dt, omega = numbers.dt, act.u
+    dt, omega = numbers.dt, action.u
     quat = turned(state.quat, (dt * omega[0], dt * omega[1], dt * omega[2]))
-    return quaternion.State(quat, omega, state.quat_d, dt * sqrt(act.squared)), memory
+    return quaternion.QuaternionState(quat, omega, state.quat_d, dt * sqrt(action.squared)), memory
 
 
 @kernel
-def see(row, curves, now, body, sensed, act, before, numbers):
+def see(row, curves, now, body, sensed, action, before, numbers):
     """Keep the greatest angle, bend and speed."""
-    asked, omega, hav = act.more.asked, act.u, sensed.haversine
-    turned_off, along = cross(asked, omega), dot(asked, omega)
+    unlimited, omega, hav = action.extra.omega, action.u, sensed.haversine
+    turned_off, along = cross(unlimited, omega), dot(unlimited, omega)
     bend = atan2(sqrt(dot(turned_off, turned_off)), along)
     speed = sqrt(dot(omega, omega))
     row[FURTHEST] = max(row[FURTHEST], hav)
@@ -89,23 +89,23 @@ def see(row, curves, now, body, sensed, act, before, numbers):
 
 
 @kernel
-def see_body(row, curves, now, body, sensed, act, before, numbers):
+def see_body(row, curves, now, body, sensed, action, before, numbers):
     """Keep the greatest of what is seen of a body, but not of a command that fails."""
-    if act.failure == GOING:
-        see(row, curves, now, body, sensed, act, before, numbers)
+    if action.failure == GOING:
+        see(row, curves, now, body, sensed, action, before, numbers)
 
 
 @kernel
-def see_arm(row, curves, now, body, sensed, act, before, numbers):
+def see_arm(row, curves, now, body, sensed, action, before, numbers):
     """Keep the greatest of what is seen of an arm."""
-    see(row, curves, now, body, sensed, act, before, numbers)
-    off, rate = act.more.off, sqrt(act.more.rate)
+    see(row, curves, now, body, sensed, action, before, numbers)
+    off, rate = action.extra.off, sqrt(action.extra.rate)
     row[OFF] = max(row[OFF], off)
-    row[RATE] = rate if act.failure == GOING and rate > row[RATE] else row[RATE]
+    row[RATE] = rate if action.failure == GOING and rate > row[RATE] else row[RATE]
 
 
 @kernel
-def account(row, body, state, sensed, act, tick, numbers):
+def account(row, body, state, sensed, action, tick, numbers):
     """Add up the path."""
     row[PATH] += state.path
 
@@ -114,15 +114,15 @@ def account(row, body, state, sensed, act, tick, numbers):
 def reset_at_rest(body, k, start):
     """Place the body at a start, at rest."""
     quat, _, quat_d, path = quaternion.reset(body, k, start)
-    return quaternion.State(quat, AT_REST, quat_d, path)
+    return quaternion.QuaternionState(quat, AT_REST, quat_d, path)
 
 
 @kernel
 def command_joints(laws, body, sensed, now, gains, memory, numbers):
     """Command joint rates, written into x: laws are the law, its limiter, and an inverse."""
-    buffers, K, tool, n, off = body.work.buffers, body.pace.K, sensed.more, body.sim.n, 0.0
+    buffers, K, tool, n, off = body.work.buffers, body.pace.K, sensed.extra, body.sim.n, 0.0
     u, memory, _ = laws.law(sensed.R, AT_REST, sensed.goal, gains, memory)
-    asked, omega = velocity(laws.second, u, K, gains.kp)
+    unlimited, omega = velocity(laws.second, u, K, gains.kp)
     for i in range(3):
         buffers.a[i] = K * (tool.p_d[i] - tool.p[i])
         buffers.a[3 + i] = omega[i]
@@ -131,11 +131,13 @@ def command_joints(laws, body, sensed, now, gains, memory, numbers):
     laws.third(buffers.J, buffers.a, body.work.D, buffers.x, 6, n, buffers.scratch)
     rate = squared(buffers.x, n)
     failure = check_command(rate, numbers.speed_limit_squared)
-    return Act(omega, u, dot(u, u), math.nan, failure, Told(asked, rate, sqrt(off))), memory
+    return Action(
+        omega, u, dot(u, u), math.nan, failure, Unlimited(unlimited, rate, sqrt(off))
+    ), memory
 
 
 @kernel
-def follow_with_joints(laws, body, state, act, gains, memory, numbers):
+def follow_with_joints(laws, body, state, action, gains, memory, numbers):
     """Let the joints' servos follow."""
     sim, s = body.sim, body.sim.sensordata
     before = (s[12], s[13], s[14], s[15])
@@ -144,14 +146,16 @@ def follow_with_joints(laws, body, state, act, gains, memory, numbers):
         sim.qpos[i] += angle_turned
         sim.qvel[i] = rate_after
     compute(sim)
-    return arm.State(state.quat_d, state.goal, state.p_d, angle(before, (s[12], s[13], s[14], s[15]))), memory
+    return arm.ArmPlantState(
+        state.quat_d, state.goal, state.p_d, angle(before, (s[12], s[13], s[14], s[15]))
+    ), memory
 
 
 @kernel
 def sense_unlimited(body, state, tick, numbers):
     """Read the sensors; a command is limited, and so no speed is."""
-    R, omega, goal, hav, turning, _, rest, fate, more = arm.sense(body, state, tick, numbers)
-    return Sensed(R, omega, goal, hav, turning, 0.0, rest, fate, more)
+    R, omega, goal, hav, watched, _, rest, ended_by, tool = arm.sense(body, state, tick, numbers)
+    return Sensed(R, omega, goal, hav, watched, 0.0, rest, ended_by, tool)
 
 
 def of_body():

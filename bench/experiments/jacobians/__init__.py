@@ -27,7 +27,7 @@ from bench.law.kinds import Coordinates
 from bench.law.so3 import Rotation
 
 if TYPE_CHECKING:
-    from bench.experiments.jacobians.pose_sets import Pose
+    from bench.experiments.jacobians.pose_sets import JointPose
     from tasks.kinematics import Kinematics
 
 ARM_S, POSE_S = 5.0, 5e-3
@@ -98,7 +98,13 @@ def look(kin: Kinematics, q: Sequence[float]) -> tuple[Chain, np.ndarray]:
     return Chain(n, kin.data.xaxis.copy(), kin.data.xanchor.copy(), np.zeros(n), tuple(p), R), J
 
 
-def _of(kin: Kinematics, poses: list[Pose], chains: Sequence[Chain], ours: np.ndarray, one: Coordinates) -> dict:
+def _of(
+    kin: Kinematics,
+    poses: list[JointPose],
+    chains: Sequence[Chain],
+    ours: np.ndarray,
+    one: Coordinates,
+) -> dict:
     """Return the columns of one representation; ours: J at every pose by our kernel."""
     charts = [one.chart(chain.R) for chain in chains]
     J_E = filled("analytic", one, chains, charts)

@@ -25,7 +25,7 @@ from tasks.paths import cos_beta, zyx_angles
 from tasks.rotations import zyx
 
 
-class Pose(NamedTuple):
+class JointPose(NamedTuple):
     """Joint angles [rad] and what they are called."""
 
     set: str
@@ -49,28 +49,31 @@ COARSE = 13
 """Points a side of the grid on which a pair of joints is chosen."""
 
 
-def poses(arm: Arm, count: int, seed: int) -> list[Pose]:
+def poses(arm: Arm, count: int, seed: int) -> list[JointPose]:
     """Return every set; `random` has so many poses, the slice about twice as many."""
     kin = Kinematics(arm)
     return [*named(arm), *random(arm, count, seed), *sliced(kin, math.isqrt(2 * count) | 1), *pole(kin, seed)]
 
 
-def named(arm: Arm) -> list[Pose]:
+def named(arm: Arm) -> list[JointPose]:
     """Return the keyframes."""
-    return [Pose("named", name, q) for name, q in arm.poses]
+    return [JointPose("named", name, q) for name, q in arm.poses]
 
 
-def random(arm: Arm, count: int, seed: int) -> list[Pose]:
+def random(arm: Arm, count: int, seed: int) -> list[JointPose]:
     """Return a scrambled Halton sequence over the joint ranges."""
     points = enumerate(halton(count, arm.joints, seed))
-    return [Pose("random", f"{i:04d}", tuple(spread(arm, point).tolist())) for i, point in points]
+    return [
+        JointPose("random", f"{i:04d}", tuple(spread(arm, point).tolist())) for i, point in points
+    ]
 
 
-def sliced(kin: Kinematics, side: int) -> list[Pose]:
+def sliced(kin: Kinematics, side: int) -> list[JointPose]:
     """Return a grid of the two joints that `pair` chooses; the id names them and the place, as in q4-q5-07-33."""
     i, j = pair(kin)
     return [
-        Pose("slice", f"q{i + 1}-q{j + 1}-{row:02d}-{column:02d}", q) for (row, column), q in grid(kin.arm, i, j, side)
+        JointPose("slice", f"q{i + 1}-q{j + 1}-{row:02d}-{column:02d}", q)
+        for (row, column), q in grid(kin.arm, i, j, side)
     ]
 
 
@@ -99,7 +102,7 @@ def _distance(kin: Kinematics, i: int, j: int) -> float:
     return max(float(np.median(conditions) / conditions.max()), float(well.min())) if len(well) else math.inf
 
 
-def pole(kin: Kinematics, seed: int) -> list[Pose]:
+def pole(kin: Kinematics, seed: int) -> list[JointPose]:
     """FAMILIES postures to each pole; ids as in 2-plus-1e-05 and 2-minus-exact."""
     found = []
     for name, sign in (("plus", 1.0), ("minus", -1.0)):
@@ -107,7 +110,7 @@ def pole(kin: Kinematics, seed: int) -> list[Pose]:
         for family, way in enumerate(itertools.islice(filter(None, ways), FAMILIES)):
             for k, q in enumerate(way, start=1):
                 distance = f"1e-{k:02d}" if k <= DECADES else "exact"
-                found.append(Pose("pole", f"{family}-{name}-{distance}", q))
+                found.append(JointPose("pole", f"{family}-{name}-{distance}", q))
     return found
 
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from bench.base.on_first_use import Turn
+from bench.base.on_first_use import ScipyRotation
 from bench.experiments.experiment import Unit
 from bench.experiments.probe_values.coordinates import (
     ABOUT_Y,
@@ -264,7 +264,7 @@ def balance(
         for side in (1, -1)
     ]
     after, before = (np.array(one).T for one in ends)
-    omega = Turn.from_matrix(after @ before.T).as_rotvec() / (2 * STEP)
+    omega = ScipyRotation.from_matrix(after @ before.T).as_rotvec() / (2 * STEP)
     moments, sizes, _ = np.linalg.svd(B)
     gain = math.inf
     if B.shape == (3, 3) and sizes[-1] > SINGULAR:

@@ -48,7 +48,7 @@ class Rates(NamedTuple):
     approach: float
 
 
-class Motion(NamedTuple):
+class SampledEpisodes(NamedTuple):
     """Samples of episodes, a row an episode: time [s], T, and the nine numbers of R."""
 
     time: np.ndarray
@@ -87,7 +87,7 @@ def turn_about(
     return Start(name, (math.cos(0.5 * angle), x, y, z))
 
 
-def follow(law: Law, starts: list[Start], gains: Gains) -> Motion:
+def follow(law: Law, starts: list[Start], gains: Gains) -> SampledEpisodes:
     """Simulate starts of a law in continuous time."""
     from bench.engines.simulate import run
 
@@ -105,7 +105,7 @@ def follow(law: Law, starts: list[Start], gains: Gains) -> Motion:
     samples = curves.samples
     chord = np.sqrt(np.minimum(1.0, samples[:, :, 16]))
     T = chord / (1.0 + np.sqrt(1.0 - chord**2))
-    return Motion(samples[:, :, 0], T, samples[:, :, 1:10])
+    return SampledEpisodes(samples[:, :, 0], T, samples[:, :, 1:10])
 
 
 def measure_decay(request: Request, unit: Unit) -> Iterator[Number]:

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from bench.base.on_first_use import Turn, pd
+from bench.base.on_first_use import ScipyRotation, pd
 from bench.experiments.episodes import prepare_law, rows_from
 from bench.experiments.experiment import Unit, rows_of
 from bench.experiments.probe_values.turns import (
@@ -172,7 +172,7 @@ def starts_beside_pole(margin: float) -> list[Start]:
         ]
         beta = (-1) ** i * (math.pi / 2 - margin - OUTSIDE_RAD)
         R = zyx.to_matrix((turns[0], beta, turns[1]))
-        quat = Turn.from_matrix(np.array(R).T).as_quat(scalar_first=True)
+        quat = ScipyRotation.from_matrix(np.array(R).T).as_quat(scalar_first=True)
         omega = tuple((SPEED * direction).tolist())
         starts.append(Start(f"spin-{i:02d}", tuple(quat.tolist()), omega))
     return starts

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from bench.base.on_first_use import Turn
+from bench.base.on_first_use import ScipyRotation
 from bench.experiments.experiment import Unit
 from bench.experiments.probe_values.variables import (
     LEGS,
@@ -40,10 +40,10 @@ FORMS = tuple(
 """The twelve forms of Euler angles, each turn about an axis of the body."""
 
 
-def after(legs: Sequence) -> Turn:
+def after(legs: Sequence) -> ScipyRotation:
     """Compute the orientation after turns in the base frame, one after the other."""
     return functools.reduce(
-        lambda at, leg: Turn.from_rotvec(leg) * at, legs, Turn.identity()
+        lambda at, leg: ScipyRotation.from_rotvec(leg) * at, legs, ScipyRotation.identity()
     )
 
 
@@ -54,7 +54,7 @@ def measure_ways(request: Request, unit: Unit) -> Iterator[Number]:
     one_axis_gap: of turns about one axis.
     """
     rng = np.random.default_rng(request.seed)
-    end, between = Turn.random(WAYS, rng=rng), Turn.random(WAYS, rng=rng)
+    end, between = ScipyRotation.random(WAYS, rng=rng), ScipyRotation.random(WAYS, rng=rng)
     by_way = between.as_rotvec() + (end * between.inv()).as_rotvec()
     for k, apart in enumerate(
         np.linalg.norm(end.as_rotvec() - by_way, axis=1).tolist()
@@ -70,7 +70,7 @@ def measure_ways(request: Request, unit: Unit) -> Iterator[Number]:
     for k in range(WAYS):
         legs = angles[k][:, None] * axes[k]
         missed = (
-            Turn.from_rotvec(legs.sum(axis=0)).inv() * after(legs)
+            ScipyRotation.from_rotvec(legs.sum(axis=0)).inv() * after(legs)
         ).magnitude()
         yield Number("one_axis_gap", float(missed), f"axis-{k:03d}")
 
@@ -123,7 +123,7 @@ def measure_eliminations(
     case: the places of the three. largest_divisor: 0 where they cannot be eliminated. divisor_gap: to a product of two
     elements. second_gap: to (2.5). second_difference: the median of the largest element's difference from R.
     """
-    R = Turn.random(
+    R = ScipyRotation.random(
         MATRICES, rng=np.random.default_rng(request.seed)
     ).as_matrix()
     for trio in itertools.combinations(range(6), 3):
@@ -148,12 +148,12 @@ def measure_eliminations(
 def by_angles(sequence: str, angles: np.ndarray) -> np.ndarray:
     """Return matrices of Euler angles; lower case letters turn about axes of the base."""
     with np.errstate(all="ignore"):
-        return Turn.from_euler(sequence, angles).as_matrix()
+        return ScipyRotation.from_euler(sequence, angles).as_matrix()
 
 
 def by_axis(axis: np.ndarray, angle: np.ndarray) -> np.ndarray:
     """Return matrices of rotations about axes."""
-    return Turn.from_rotvec(axis * angle).as_matrix()
+    return ScipyRotation.from_rotvec(axis * angle).as_matrix()
 
 
 SETS = ("Z-Y-X", "Z-Y-Z", "roll, pitch and yaw", "angle and axis")
@@ -202,8 +202,8 @@ def measure_sets(request: Request, unit: Unit) -> Iterator[Number]:
 def least_of(form: str, angles: tuple[float, float, float]) -> float:
     """Compute the smallest singular value of B: its columns are the axes of the three turns in the base."""
     axes = np.eye(3)[["XYZ".index(letter) for letter in form]]
-    first = Turn.from_euler(form[0], angles[0])
-    second = first * Turn.from_euler(form[1], angles[1])
+    first = ScipyRotation.from_euler(form[0], angles[0])
+    second = first * ScipyRotation.from_euler(form[1], angles[1])
     B = np.array([axes[0], first.apply(axes[1]), second.apply(axes[2])]).T
     return float(np.linalg.svd(B, compute_uv=False)[-1])
 
@@ -236,11 +236,11 @@ def measure_lines(request: Request, unit: Unit) -> Iterator[Number]:
     sqrt(1 -+ |sin beta|).
     """
     rng = np.random.default_rng(request.seed)
-    start, end = (Turn.random(MATRICES, rng=rng) for _ in range(2))
+    start, end = (ScipyRotation.random(MATRICES, rng=rng) for _ in range(2))
     shortest = (end * start.inv()).magnitude()
     first, last = (one.as_euler("ZYX") for one in (start, end))
     ways = [
-        Turn.from_euler("ZYX", first + s * (last - first))
+        ScipyRotation.from_euler("ZYX", first + s * (last - first))
         for s in np.linspace(0.0, 1.0, STEPS)
     ]
     steps = [

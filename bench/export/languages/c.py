@@ -23,7 +23,7 @@ not_eq operator or or_eq private protected public template this throw true try t
 """Words of C and of C++, which includes the header."""
 
 
-class Core:
+class CFunctions:
     """The functions of a subject in C, on structures; prefix: begins every name of theirs."""
 
     def __init__(self, subject: Subject) -> None:
@@ -98,7 +98,7 @@ def comment(text: str) -> list[str]:
 
 def write_header(subject: Subject) -> str:
     """Write the law as one header."""
-    name, core = subject.identifier, Core(subject)
+    name, core = subject.identifier, CFunctions(subject)
     guard = f"ORIENTATION_BENCH_{name.upper()}_H"
     about = "\n".join(f" * {line}".rstrip() for line in heading(subject, BY_ROWS, UNFUSED).splitlines())
     return "\n".join(
@@ -124,7 +124,7 @@ def write_state(subject: Subject) -> Iterator[str]:
         yield "}\n"
 
 
-def write_entry(subject: Subject, core: Core, entry: Entry) -> str:
+def write_entry(subject: Subject, core: CFunctions, entry: Entry) -> str:
     """Write one entry on plain arrays: NAME_ENTRY(arguments..., result)."""
     name, function = f"{subject.identifier}_{entry.name}", translated(subject).entries[entry.name]
     declared = {

@@ -32,7 +32,7 @@ ON_ARRAYS: Form = FORMS["arrays"]
 ON_NALGEBRA: Form = {part: given | FORMS["nalgebra"][part] for part, given in ON_ARRAYS.items()}
 
 
-class Core:
+class RustFunctions:
     """The functions of a subject in Rust."""
 
     def __init__(self, subject: Subject) -> None:
@@ -98,7 +98,7 @@ class Core:
 
 def write_law(subject: Subject) -> str:
     """Write the law as one file, for a module that defines Real."""
-    core = Core(subject)
+    core = RustFunctions(subject)
     text, memory = core.text(), subject.memory_name
     names = {name: one.name for name, one in core.program.entries.items()}
     offered, typed = (

@@ -17,7 +17,7 @@ from pathlib import Path
 from bench.base.errors import BadClaim, NoEvidence, NoTable
 from bench.experiments.tables.run import MAIN_ENGINE, Run, shown_folder
 from bench.findings.claims.tables import CHECK_ENGINES
-from bench.findings.claims.verdict import Claim, Evidence, Verdict, Word, decide, does
+from bench.findings.claims.verdict import Claim, Evidence, Verdict, Word, decide, verb_phrase
 
 RULE = (
     f"Like the paper, we simulate in continuous time for all verdicts (engine {MAIN_ENGINE}). We "
@@ -77,10 +77,12 @@ def judge_each(run: Run, paper: str = MURPHY) -> list[Verdict]:
     return [verdicts[claim.id] for claim in every]
 
 
-def told(words: Iterable[Word]) -> str:
-    """'20 hold, 1 does not hold': how many claims have each word that some claim has, in the order of the words."""
+def format_tally(words: Iterable[Word]) -> str:
+    """Return how many claims have each word that some claim has: "20 hold, 1 does not hold"."""
     counts = Counter(words)
-    return ", ".join(f"{counts[word]} {does(word, counts[word])}" for word in Word if counts[word])
+    return ", ".join(
+        f"{counts[word]} {verb_phrase(word, counts[word])}" for word in Word if counts[word]
+    )
 
 
 def judge_all(folder: Path | None = None) -> list[Verdict]:

@@ -16,7 +16,7 @@ from bench.experiments.tables.run import MAIN_ENGINE, Run, read_table
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.amounts import join_words
 from bench.findings.claims.tables import CHECK_ENGINES, evidence
-from bench.findings.claims.verdict import Evidence, Word, does
+from bench.findings.claims.verdict import Evidence, Word, verb_phrase
 from bench.law.inputs import Gains
 
 REFERENCE = RESULTS / "reference"
@@ -113,7 +113,7 @@ def _measured(own: Gains, found: dict[Gains, tuple[Word, Evidence]]) -> str:
             others.setdefault(word, []).append(gains)
     parts = [f"At {_told(own)}: {said.measured}"]
     for word, at in others.items():
-        parts.append(f"At {_told_all(at)}, the claim {does(word, 1)}.")
+        parts.append(f"At {_told_all(at)}, the claim {verb_phrase(word, 1)}.")
     return " ".join(parts)
 
 

@@ -278,7 +278,7 @@ def _answer(law: Adequacy, tested: adequacy.Tested, known: Ledger) -> tuple[str,
 
 
 def _of_the_three(run: Run) -> list[pd.DataFrame]:
-    """Uniform starts from rest of each law, the same in the same order; one that does not converge settles nowhere."""
+    """Return the uniform starts that all laws ran; unconverged episodes count as unsettled."""
     found = [episodes_of(run, name, MAIN_ENGINE, "uniform") for name in NAMES]
     found = [one.assign(outcome=one["outcome"].astype(str).where(one["converged"] != "no", "unknown")) for one in found]
     return tables.same_starts(found)

@@ -44,8 +44,8 @@ PLURAL = {
 }
 
 
-def does(word: Word, number: int) -> str:
-    """Return what so many statements with a word do."""
+def verb_phrase(word: Word, number: int) -> str:
+    """Return the verb of a number of claims with a word: "holds" of one, "hold" of several."""
     if (word, number) == (Word.ANSWERED, 1):
         return "was open in 1988 and is answered since"
     if number == 1 and word in (Word.UNTESTABLE, Word.UNTESTED):

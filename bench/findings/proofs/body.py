@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from bench.findings.proofs import dialect
-from bench.findings.proofs.conditions import Condition
+from bench.findings.proofs.conditions import PolynomialRelation
 from bench.findings.proofs.paths import Path
 from bench.findings.proofs.reasons import DoesNotFit, LemmaFails
 from bench.findings.proofs.solver import Lemma, Solver, is_below, undecided
@@ -48,7 +48,7 @@ class Tick(NamedTuple):
     kept: Traced | None
     path: Path
     side: int = 1
-    known: tuple[Condition, ...] = ()
+    known: tuple[PolynomialRelation, ...] = ()
     taken: Any = None
 
 
@@ -131,11 +131,13 @@ class FreeBody:
             LemmaFails: a memory does not stay a multiple of q.
         """
         memory = () if law.memory is None else (tuple(self.symbols.of["size"] * part for part in self.q),)
-        is_turned = Condition((self.eta**2 - 1).value.numer, "<")
+        is_turned = PolynomialRelation((self.eta**2 - 1).value.numer, "<")
         for path in self.commands(law, *memory):
             still, moving = path.answer
             if law.memory is None:
-                sides: list[tuple[int, Traced | None, tuple[Condition, ...]]] = [(1, None, (is_turned,))]
+                sides: list[tuple[int, Traced | None, tuple[PolynomialRelation, ...]]] = [
+                    (1, None, (is_turned,))
+                ]
                 u_at_rest, u = still, moving
             else:
                 multiple = self.find_multiple(path, moving[1], STAYS_PARALLEL)
@@ -155,23 +157,29 @@ class FreeBody:
         """
         kept = dot(memory[1:], self.eps) + memory[0] * self.eta
         for part, other in zip(memory, self.q, strict=True):
-            self._never(path, Condition((part - kept * other).value.numer, "!="), statement)
-        self._never(path, Condition(kept.value.numer, "="), statement)
+            self._never(
+                path, PolynomialRelation((part - kept * other).value.numer, "!="), statement
+            )
+        self._never(path, PolynomialRelation(kept.value.numer, "="), statement)
         return kept
 
     def _require_same_length(self, path: Path, multiple: Traced) -> None:
         """Raise LemmaFails if a memory grows or shrinks from tick to tick."""
         if self.mentions(multiple, "size"):
             size = self.symbols.of["size"]
-            self._never(path, Condition((multiple**2 - size**2).value.numer, "!="), KEEPS_LENGTH)
+            self._never(
+                path, PolynomialRelation((multiple**2 - size**2).value.numer, "!="), KEEPS_LENGTH
+            )
 
     def _require_rest(self, path: Path, u_at_rest: tuple) -> None:
         """Raise LemmaFails if a body that is at rest at the goal is driven."""
-        at_goal = Condition((self.eta**2 - 1).value.numer, "=")
+        at_goal = PolynomialRelation((self.eta**2 - 1).value.numer, "=")
         for part in u_at_rest:
-            self._never(path, Condition(part.value.numer, "!="), RESTS, at_goal)
+            self._never(path, PolynomialRelation(part.value.numer, "!="), RESTS, at_goal)
 
-    def _never(self, path: Path, fault: Condition, statement: str, *where: Condition) -> None:
+    def _never(
+        self, path: Path, fault: PolynomialRelation, statement: str, *where: PolynomialRelation
+    ) -> None:
         """Raise LemmaFails unless no state on a path, where other conditions hold, has a fault."""
         if fault.answer() is False:
             return

@@ -11,23 +11,23 @@ TURNED = {"<": ">", ">": "<", "<=": ">=", ">=": "<=", "=": "=", "!=": "!="}
 """The relation of -p to zero, where p has a relation to zero."""
 
 
-class Condition(NamedTuple):
+class PolynomialRelation(NamedTuple):
     """A polynomial's relation to zero: <, <=, >, >=, = or !=."""
 
     polynomial: PolyElement
     relation: str
 
-    def opposite(self) -> "Condition":
+    def opposite(self) -> "PolynomialRelation":
         """Return the condition that holds where this one does not."""
-        return Condition(self.polynomial, OPPOSITE[self.relation])
+        return PolynomialRelation(self.polynomial, OPPOSITE[self.relation])
 
-    def normal(self) -> "Condition":
+    def normal(self) -> "PolynomialRelation":
         """Return the same condition on a polynomial whose leading coefficient is 1."""
         leading = self.polynomial.LC
         if not leading:
             return self
         relation = self.relation if leading > 0 else TURNED[self.relation]
-        return Condition(self.polynomial.quo_ground(leading), relation)
+        return PolynomialRelation(self.polynomial.quo_ground(leading), relation)
 
     def answer(self) -> bool | None:
         """Return whether it holds, if its polynomial is a number; else None."""
@@ -56,7 +56,7 @@ IMPLIED = {
 """What one relation of a polynomial to zero says of another: known -> asked -> whether it holds."""
 
 
-def find_answer(known: list[Condition], asked: Condition) -> bool | None:
+def find_answer(known: list[PolynomialRelation], asked: PolynomialRelation) -> bool | None:
     """Return whether a condition holds by what is known of the same polynomial; None: that does not say.
 
     All are in normal form.

@@ -24,7 +24,7 @@ class Unenclosed(Exception):
     """A motion that is not known well enough: shorten the step, or the interval of P."""
 
 
-class Equation(NamedTuple):
+class FlowEquation(NamedTuple):
     """N(z, v, c, s, P), its partial derivatives, and bounds of the slope of u/p by x within the band."""
 
     N: Callable[..., Any]
@@ -70,7 +70,7 @@ class Step(NamedTuple):
 class Flow:
     """Motions for every P of an interval, and their derivatives by P."""
 
-    def __init__(self, equation: Equation, a: arb, P: arb) -> None:
+    def __init__(self, equation: FlowEquation, a: arb, P: arb) -> None:
         self.equation, self.a, self.P = equation, a, P
 
     def complete(self, begin: Sequence[arb], grows: arb) -> list[arb]:
@@ -120,7 +120,9 @@ class Flow:
         return Step(joined, (image[1] - self.a * image[0]) / grows)
 
 
-def enclose(equation: Equation, a: arb, p: tuple[float, float], tolerance: arb) -> tuple[float, float]:
+def enclose(
+    equation: FlowEquation, a: arb, p: tuple[float, float], tolerance: arb
+) -> tuple[float, float]:
     """Return times before and after which the angle comes to stay below the tolerance, for every p of an interval.
 
     The equation holds while v < 0 < x: at v = 0 < x the spring pulls back, and x > 0 is checked at every step's end.

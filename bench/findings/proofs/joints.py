@@ -28,9 +28,10 @@ def prove(baseline: Baseline) -> Proof:
     chain = SimpleNamespace(n=JOINTS, axes=np.zeros((JOINTS, 3)), qdot=qdot)
     a, tau = list(e), [None] * JOINTS
     assemble: Any = baseline.assemble
-    through: Any = baseline.through
+    resolution: Any = baseline.resolution
+    _, inverse = resolution
     assemble(chain, None, None, Gains(kp, kv), (), None, a)
-    through[1].resolve(np.diag(m), a, None, tau, JOINTS, JOINTS, None)
+    inverse.resolve(np.diag(m), a, None, tau, JOINTS, JOINTS, None)
     power = sum((qdot[i] * (tau[i] - kp * m[i] * e[i] + kv * m[i] * qdot[i]) for i in range(JOINTS)), symbols.number(0))
     still = [tau[i] - m[i] * (kp * e[i] - kv * qdot[i]) for i in range(JOINTS)]
     lemmas = [by_algebra("V' = -Kv qdot^T M qdot", power), by_algebra("tau = M (Kp e - Kv qdot)", still)]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from sympy.polys.rings import PolyElement
 
-from bench.findings.proofs.conditions import Condition
+from bench.findings.proofs.conditions import PolynomialRelation
 
 if TYPE_CHECKING:
     from bench.findings.proofs.traced_number import Traced
@@ -20,7 +20,9 @@ class PathEnds(Exception):
 class Oracle(Protocol):
     """Who answers whether conditions have a solution: `bench.findings.proofs.solver.Solver`."""
 
-    def find(self, path: Path, *conditions: Condition, limit_s: float | None = None) -> Any:
+    def find(
+        self, path: Path, *conditions: PolynomialRelation, limit_s: float | None = None
+    ) -> Any:
         """Return a finding with `answer` ("unsat", "sat", "unknown"), `state` and `seconds`."""
 
 
@@ -71,7 +73,7 @@ class Path:
     answer: Any = None
     is_over: bool = False
     taken: list[bool] = field(default_factory=list)
-    decisions: list[Condition] = field(default_factory=list)
+    decisions: list[PolynomialRelation] = field(default_factory=list)
     relations: list[PolyElement] = field(default_factory=list)
     meanings: dict[str, Any] = field(default_factory=dict)
     definitions: list[Definition] = field(default_factory=list)

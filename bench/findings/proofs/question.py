@@ -11,7 +11,7 @@ from z3 import Real, substitute
 
 from bench.findings.proofs import sampling
 from bench.findings.proofs.body import GOAL, QUATERNION, RATES, FreeBody, Tick
-from bench.findings.proofs.conditions import CLOSED, Condition
+from bench.findings.proofs.conditions import CLOSED, PolynomialRelation
 from bench.findings.proofs.reasons import LIMITS, DoesNotFit, LemmaFails
 from bench.findings.proofs.solver import Lemma, ask, by_algebra, undecided
 from bench.findings.proofs.traced_number import are_same
@@ -54,11 +54,11 @@ class Question:
     def never(
         self,
         statement: str,
-        faults: Callable[[Tick], list[Condition]],
+        faults: Callable[[Tick], list[PolynomialRelation]],
         sides: tuple[int, ...] = (1, -1),
         to_the_edge: bool = False,
         to_180: bool = False,
-        where: tuple[Condition, ...] = (),
+        where: tuple[PolynomialRelation, ...] = (),
     ) -> Lemma:
         """Return the lemma that no tick on some sides has a state with one of its faults.
 
@@ -75,11 +75,11 @@ class Question:
     def _decide(
         self,
         statement: str,
-        faults: Callable[[Tick], list[Condition]],
+        faults: Callable[[Tick], list[PolynomialRelation]],
         sides: tuple[int, ...],
         to_the_edge: bool,
         to_180: bool,
-        where: tuple[Condition, ...],
+        where: tuple[PolynomialRelation, ...],
     ) -> Lemma:
         seconds = 0.0
         for tick in self.ticks:
@@ -90,7 +90,9 @@ class Question:
             for possible in faults(tick):
                 fault = possible
                 if not to_180:  # where eta = 0 counts, it is no factor to be left out
-                    fault = Condition(self.body.symbols.without_positive(possible.polynomial), possible.relation)
+                    fault = PolynomialRelation(
+                        self.body.symbols.without_positive(possible.polynomial), possible.relation
+                    )
                 if fault.answer() is False:
                     continue
                 finding = self.body.solver.find(path, *tick.known, *where, fault, to_180=to_180)
@@ -108,9 +110,9 @@ class Question:
         others = [substitute(formula, *apart) for formula in solver.formulas(other.path, *other.known)]
         return ask(*formulas, *others)[0] != "unsat"
 
-    def eta_below(self, end: float) -> Condition:
+    def eta_below(self, end: float) -> PolynomialRelation:
         """Return the condition eta < end."""
-        return Condition((self.body.eta - self.body.symbols.number(end)).value.numer, "<")
+        return PolynomialRelation((self.body.eta - self.body.symbols.number(end)).value.numer, "<")
 
     @functools.cached_property
     def delta(self) -> Fraction:
@@ -127,7 +129,7 @@ class Question:
             return []
         kept, changed = 0.0 - float(min(self.delta, Fraction(99, 100))), 0.0 - float(self.delta)
         is_kept = by_algebra("delta > 0", self.delta > 0)
-        above = Condition(self.eta_below(changed).polynomial, ">")
+        above = PolynomialRelation(self.eta_below(changed).polynomial, ">")
         return [
             is_kept,
             self.never(f"a side is kept at eta >= {kept:g} alone", lambda _: [self.eta_below(kept)], (1,)),
@@ -138,7 +140,7 @@ class Question:
 def _with_edge(tick: Tick) -> Any:
     """Return a tick's path with its edge: what excludes the edge is left out."""
     decisions = [
-        Condition(condition.polynomial, CLOSED[condition.relation])
+        PolynomialRelation(condition.polynomial, CLOSED[condition.relation])
         for condition in tick.path.decisions
         if condition.relation in CLOSED
     ]

@@ -34,7 +34,7 @@ class TimeIsUp(BaseException):
     """The time for a law is over. It is no Exception, so that nothing that handles errors keeps it."""
 
 
-class Limits:
+class ProofLimits:
     """How long the prover may take.
 
     Attributes:
@@ -76,7 +76,7 @@ class Limits:
         return left
 
 
-LIMITS = Limits()
+LIMITS = ProofLimits()
 """The limits of this process, which proves one law at a time."""
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from sympy.polys.rings import PolyElement
 
-from bench.findings.proofs.conditions import Condition
+from bench.findings.proofs.conditions import PolynomialRelation
 from bench.findings.proofs.paths import Path
 from bench.findings.proofs.trace import Symbols
 from bench.law.inputs import PAPERS_GAINS
@@ -30,7 +30,9 @@ RATES = ("omega_x", "omega_y", "omega_z")
 Values = dict[str, np.ndarray]
 
 
-def search(symbols: Symbols, path: Path, conditions: tuple[Condition, ...]) -> Iterator[dict[str, float]]:
+def search(
+    symbols: Symbols, path: Path, conditions: tuple[PolynomialRelation, ...]
+) -> Iterator[dict[str, float]]:
     """Yield up to MOST drawn states on a path that meet conditions, as well as doubles can tell."""
     draw = np.random.default_rng(7)
     every = [*path.decisions, *conditions]
@@ -44,7 +46,7 @@ def search(symbols: Symbols, path: Path, conditions: tuple[Condition, ...]) -> I
 
 
 def states_on(
-    symbols: Symbols, path: Path, conditions: list[Condition], values: Values, most: int
+    symbols: Symbols, path: Path, conditions: list[PolynomialRelation], values: Values, most: int
 ) -> list[dict[str, float]]:
     """Return some of the drawn states that are on a path, with the path's own symbols."""
     defined = define(symbols, path, values)
@@ -123,7 +125,7 @@ def define(symbols: Symbols, path: Path, values: Values) -> Values:
     return values
 
 
-def meets(symbols: Symbols, conditions: list[Condition], values: Values) -> np.ndarray:
+def meets(symbols: Symbols, conditions: list[PolynomialRelation], values: Values) -> np.ndarray:
     """Tell for each state whether it meets all conditions."""
     count = len(next(iter(values.values())))
     holds = np.ones(count, bool)
@@ -142,13 +144,19 @@ def meets(symbols: Symbols, conditions: list[Condition], values: Values) -> np.n
     return holds
 
 
-def _meeting(symbols: Symbols, path: Path, conditions: list[Condition], values: Values) -> np.ndarray:
+def _meeting(
+    symbols: Symbols, path: Path, conditions: list[PolynomialRelation], values: Values
+) -> np.ndarray:
     """Return the places of the states that meet all conditions."""
     return np.flatnonzero(meets(symbols, conditions, define(symbols, path, values)))
 
 
 def _at_edges(
-    symbols: Symbols, path: Path, conditions: list[Condition], values: Values, draw: np.random.Generator
+    symbols: Symbols,
+    path: Path,
+    conditions: list[PolynomialRelation],
+    values: Values,
+    draw: np.random.Generator,
 ) -> Values:
     """Return states near the edges of conditions: on lines between two states, found by halving."""
     parts = []

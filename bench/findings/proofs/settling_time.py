@@ -26,8 +26,8 @@ from typing import Any, NamedTuple
 import sympy as sp
 from flint import arb
 
-from bench.findings.proofs.conditions import Condition
-from bench.findings.proofs.flow import Equation, Unenclosed, enclose, turned_by
+from bench.findings.proofs.conditions import PolynomialRelation
+from bench.findings.proofs.flow import FlowEquation, Unenclosed, enclose, turned_by
 from bench.findings.proofs.paths import Angle
 from bench.findings.proofs.solver import Solver
 from bench.findings.proofs.theorem import DoesNotFit
@@ -61,7 +61,7 @@ def trace_on_axis(law: Law, gains: Gains) -> Any:
     one = tuple(tuple(symbols.number(part) for part in column) for column in IDENTITY)
     memory = () if law.memory is None else (tuple(symbols.number(part) for part in law.memory),)
     solver, found = Solver(symbols), list[Traced]()
-    below_1 = Condition((w - 1).value.numer, "<")
+    below_1 = PolynomialRelation((w - 1).value.numer, "<")
     kp_kv: Any = map(symbols.number, gains)
     given = (R, (zero, zero, rate), Goal(Rotation(*one)), Gains(*kp_kv), *memory)
     evaluate: Any = law.law
@@ -83,7 +83,7 @@ def trace_on_axis(law: Law, gains: Gains) -> Any:
     return sp.cancel(command.subs(p, sp.sqrt(P)))
 
 
-def make_equation(law: Law, gains: Gains, tolerance: arb) -> Equation:
+def make_equation(law: Law, gains: Gains, tolerance: arb) -> FlowEquation:
     """Return the equation of a law at gains that are whole numbers."""
     command, kv = trace_on_axis(law, gains), sp.Rational(gains.kv)
     N = sp.cancel(-command + kv * V + kv**2 / 2 * (Z + P * S))
@@ -93,7 +93,7 @@ def make_equation(law: Law, gains: Gains, tolerance: arb) -> Equation:
     c, s = turned_by(x, square)[:2]
     within = compile_function(sp.cancel(slope))(x / 2 - square * s, arb(0), c, s, square)
     slopes = [compile_function(sp.cancel(sp.diff(N, one))) for one in (Z, V, C, S, P)]
-    return Equation(compile_function(N), slopes, within.lower(), within.upper())
+    return FlowEquation(compile_function(N), slopes, within.lower(), within.upper())
 
 
 def compile_function(expression: Any) -> Callable[..., Any]:

@@ -9,7 +9,7 @@ import z3
 from sympy.polys.rings import PolyElement
 
 from bench.findings.proofs import sampling
-from bench.findings.proofs.conditions import Condition
+from bench.findings.proofs.conditions import PolynomialRelation
 from bench.findings.proofs.paths import Path
 from bench.findings.proofs.reasons import LIMITS
 from bench.findings.proofs.trace import Symbols
@@ -44,7 +44,7 @@ class Lemma(NamedTuple):
     is_basic: bool = False
 
 
-class Finding(NamedTuple):
+class SolverAnswer(NamedTuple):
     """What was found on some conditions: "unsat", "sat" with a state, or "unknown"."""
 
     answer: str
@@ -116,7 +116,7 @@ class Solver:
             terms.append(z3.Product(*factors))
         return z3.Sum(terms) if terms else z3.RealVal(0)
 
-    def formula(self, condition: Condition) -> Any:
+    def formula(self, condition: PolynomialRelation) -> Any:
         """Return a condition as Z3 has it."""
         term = self.term(condition.polynomial)
         formulas = {
@@ -152,7 +152,9 @@ class Solver:
             ]
         return facts
 
-    def formulas(self, path: Path, *conditions: Condition, to_180: bool = False) -> list[Any]:
+    def formulas(
+        self, path: Path, *conditions: PolynomialRelation, to_180: bool = False
+    ) -> list[Any]:
         """Return all that Z3 is given of a path and some conditions; to_180: eta may be zero where it is positive."""
         mentioned = [*path.decisions, *conditions]
         polynomials = [condition.polynomial for condition in mentioned] + path.relations
@@ -167,8 +169,12 @@ class Solver:
         return [*given, *formulas, *self.facts(path)]
 
     def find(
-        self, path: Path, *conditions: Condition, limit_s: float | None = None, to_180: bool = False
-    ) -> Finding:
+        self,
+        path: Path,
+        *conditions: PolynomialRelation,
+        limit_s: float | None = None,
+        to_180: bool = False,
+    ) -> SolverAnswer:
         """Find a state on a path that meets conditions: first Z3 is asked, then states are drawn, then Z3 again.
 
         limit_s: seconds for Z3; then nothing is drawn.
@@ -177,17 +183,17 @@ class Solver:
         first_s = FIRST_TRY_S if limit_s is None else limit_s
         answer, model, seconds = ask(*formulas, limit_s=first_s)
         if answer == "sat":
-            return Finding(answer, self._with_papers_gains(formulas, model), seconds)
+            return SolverAnswer(answer, self._with_papers_gains(formulas, model), seconds)
         if answer == "unsat" or limit_s is not None:
-            return Finding(answer, None, seconds)
+            return SolverAnswer(answer, None, seconds)
         began = time.perf_counter()
         for state in sampling.search(self.symbols, path, conditions):
             confirmed = self._confirm(formulas, state)
             if confirmed:
-                return Finding("sat", confirmed, seconds + time.perf_counter() - began)
+                return SolverAnswer("sat", confirmed, seconds + time.perf_counter() - began)
         answer, model, _ = ask(*formulas)
         seconds = time.perf_counter() - began + seconds
-        return Finding(answer, self._state(model) if model is not None else None, seconds)
+        return SolverAnswer(answer, self._state(model) if model is not None else None, seconds)
 
     def _with_papers_gains(self, formulas: list[Any], model: Any) -> dict[str, float]:
         """Return a state of a model, one with the paper's gains if there is one."""
@@ -217,9 +223,9 @@ def sign_of(value: Traced) -> PolyElement:
     return value.value.numer * value.value.denom
 
 
-def is_below(value: Traced, strictly: bool = True) -> Condition:
+def is_below(value: Traced, strictly: bool = True) -> PolynomialRelation:
     """Return the condition that a value is below zero, or at most zero."""
-    return Condition(sign_of(value), "<" if strictly else "<=")
+    return PolynomialRelation(sign_of(value), "<" if strictly else "<=")
 
 
 def _shares(relation: PolyElement, polynomials: Iterable[PolyElement]) -> bool:

@@ -29,7 +29,7 @@ from typing import Any, NamedTuple
 import sympy as sp
 
 from bench.findings.proofs.body import GOAL, IS_FINITE, QUATERNION, RATES, FreeBody, Tick
-from bench.findings.proofs.conditions import Condition
+from bench.findings.proofs.conditions import PolynomialRelation
 from bench.findings.proofs.memory import prove_start
 from bench.findings.proofs.question import Question, agreement_lemma, find_least
 from bench.findings.proofs.solver import Lemma, by_algebra, is_below
@@ -72,17 +72,19 @@ def take_apart(body: FreeBody, tick: Tick) -> Command:
     return Command(f, a, b)
 
 
-def is_damped_less(body: FreeBody, command: Command, c: Fraction, is_along: bool) -> list[Condition]:
+def is_damped_less(
+    body: FreeBody, command: Command, c: Fraction, is_along: bool
+) -> list[PolynomialRelation]:
     """Return the faults of a damping: along or across eps it is below c Kv; not above zero where c is zero."""
     damping = command.a - (1 - body.eta**2) * command.b if is_along else command.a
-    undefined = [Condition(value.value.denom, "=") for value in (command.a, command.b)]
+    undefined = [PolynomialRelation(value.value.denom, "=") for value in (command.a, command.b)]
     return [is_below(damping - body.symbols.number(c) * body.gains.kv, strictly=c != 0), *undefined]
 
 
 def damping_lemma(body: FreeBody, ask: Question, statement: str, c: Fraction, is_along: bool) -> Lemma:
     """Return the lemma that the damping along or across eps is at least c Kv, or above zero where c is zero."""
 
-    def faults(tick: Tick) -> list[Condition]:
+    def faults(tick: Tick) -> list[PolynomialRelation]:
         return is_damped_less(body, tick.taken, c, is_along)
 
     return ask.never(statement, faults, to_the_edge=c == 0, to_180=c == 0)
@@ -134,7 +136,7 @@ def prove(law: Law) -> Proof:
 def spring_lemma(ask: Question) -> Lemma:
     """Return the lemma that the spring pulls, at the edges of paths too: where f fades, a body may come to rest."""
 
-    def faults(tick: Tick) -> list[Condition]:
+    def faults(tick: Tick) -> list[PolynomialRelation]:
         return [is_below(tick.side * tick.taken.f, strictly=False)]
 
     return ask.never("f > 0 but at the goal", faults, to_the_edge=True)
@@ -142,16 +144,16 @@ def spring_lemma(ask: Question) -> Lemma:
 
 def bounded_lemma(body: FreeBody, ask: Question) -> Lemma:
     """Return the lemma that the spring's pull has a bound near the goal: else U may have none."""
-    near_goal = Condition((body.symbols.number(NEAR_GOAL) - body.eta**2).value.numer, "<")
+    near_goal = PolynomialRelation((body.symbols.number(NEAR_GOAL) - body.eta**2).value.numer, "<")
     kp, kv = body.gains
 
-    def faults(tick: Tick) -> list[Condition]:
+    def faults(tick: Tick) -> list[PolynomialRelation]:
         f = tick.taken.f
         most = body.symbols.number(LARGEST)
         if body.mentions(f, "kp", "kv"):
             most = most * (1 + kp + kv) ** 2 / (kp * kv)
         is_large = is_below(most**2 - f**2 * (1 - body.eta**2))
-        return [is_large, Condition(f.value.denom, "=")]
+        return [is_large, PolynomialRelation(f.value.denom, "=")]
 
     return ask.never("f |eps| has a bound near the goal", faults, where=(near_goal,))
 
@@ -162,8 +164,8 @@ def finite_lemma(body: FreeBody, ask: Question) -> Lemma:
     if not finite.is_proved:
         return finite
 
-    def faults(tick: Tick) -> list[Condition]:
-        return [Condition(part.value.denom, "=") for part in tick.u]
+    def faults(tick: Tick) -> list[PolynomialRelation]:
+        return [PolynomialRelation(part.value.denom, "=") for part in tick.u]
 
     # at the edges too: there a force without a bound would give a body any energy
     bounded = ask.never(IS_FINITE, faults, to_the_edge=True)

@@ -25,7 +25,7 @@ from sympy.polys.fields import FracField
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyElement
 
-from bench.findings.proofs.conditions import Condition, find_answer
+from bench.findings.proofs.conditions import PolynomialRelation, find_answer
 from bench.findings.proofs.paths import Angle, Definition, Doubt, Oracle, Path, PathEnds
 from bench.findings.proofs.reasons import LIMITS, TimeIsUp, Untraceable, describe_error, is_of_a_law
 from bench.findings.proofs.traced_number import Traced, is_same
@@ -65,7 +65,7 @@ class Symbols:
         """Whether a law runs: only then is a comparison a decision, and a division a question."""
         self.oracle: Oracle | None = None
         self.doubts: list[Doubt] = []
-        self.requirements: list[Condition] = []
+        self.requirements: list[PolynomialRelation] = []
         """What must not hold, where there is no oracle to ask."""
         self.questions = 0
         self.question_s = 0.0
@@ -157,7 +157,9 @@ class Symbols:
         """Decide whether a value has a relation to zero: a number has it or not, else the path decides."""
         if not self.is_tracing:
             raise RuntimeError("a comparison of symbols outside a law's source: use is_zero or is_same")
-        condition = Condition(self.without_positive(value.value.numer * value.value.denom), relation).normal()
+        condition = PolynomialRelation(
+            self.without_positive(value.value.numer * value.value.denom), relation
+        ).normal()
         known = condition.answer()
         if known is None:
             known = find_answer(self.path.decisions, condition)
@@ -165,7 +167,7 @@ class Symbols:
             return known
         return self._branch(condition)
 
-    def _branch(self, condition: Condition) -> bool:
+    def _branch(self, condition: PolynomialRelation) -> bool:
         """Follow the way that the path's script says, or a new one: the first that may have a state."""
         path = self.path
         place = len(path.taken)
@@ -199,13 +201,13 @@ class Symbols:
                 polynomial = polynomial.quo(factor)
         return polynomial
 
-    def _is_impossible(self, condition: Condition) -> bool:
+    def _is_impossible(self, condition: PolynomialRelation) -> bool:
         """Tell whether Z3 shows that no state on the path meets a condition."""
         if self.oracle is None:
             return False
         return self._ask(condition, PRUNING_S).answer == "unsat"
 
-    def _ask(self, condition: Condition, limit_s: float | None = None) -> Any:
+    def _ask(self, condition: PolynomialRelation, limit_s: float | None = None) -> Any:
         """Return the oracle's finding on the path and a condition; each question is asked once."""
         assert self.oracle is not None
         key = (self.path.key(), condition, limit_s)
@@ -215,11 +217,11 @@ class Symbols:
 
     # domains
 
-    def require_not(self, fault: Condition, words: str) -> None:
+    def require_not(self, fault: PolynomialRelation, words: str) -> None:
         """Ask whether a state on the path has a fault, before an operation that is undefined there."""
         if not self.is_tracing:
             return
-        fault = Condition(self.without_positive(fault.polynomial), fault.relation).normal()
+        fault = PolynomialRelation(self.without_positive(fault.polynomial), fault.relation).normal()
         is_certain = fault.answer()
         if is_certain is None:
             is_certain = find_answer(self.path.decisions, fault)
@@ -241,13 +243,13 @@ class Symbols:
         """Ask whether a divisor may be zero."""
         numer = divisor.value.numer
         if len(numer.terms()) > 1 or numer.is_ground:
-            self.require_not(Condition(numer, "="), "a division by zero")
+            self.require_not(PolynomialRelation(numer, "="), "a division by zero")
             return
         # a product of symbols is zero where one of them is
         for place, power in enumerate(numer.LM):
             if power:
                 factor = self.field.gens[place].numer
-                self.require_not(Condition(factor, "="), "a division by zero")
+                self.require_not(PolynomialRelation(factor, "="), "a division by zero")
 
     # functions
 
@@ -276,7 +278,9 @@ class Symbols:
             return outside
         # where a square that was taken out is zero, the rest may be below zero, and the root is defined
         # all the same
-        self.require_not(Condition(inside, "<"), "a square root of zero times a number below zero")
+        self.require_not(
+            PolynomialRelation(inside, "<"), "a square root of zero times a number below zero"
+        )
         return outside * self._root_symbol(inside)
 
     def _take_square(self, factor: PolyElement) -> tuple:
@@ -302,7 +306,7 @@ class Symbols:
         path.meanings[name] = meaning
         path.definitions.append(Definition(name, "root", (Traced(self.field(polynomial), self),)))
         path.relations.append((symbol**2).value.numer - polynomial)
-        path.decisions.append(Condition(symbol.value.numer, ">="))
+        path.decisions.append(PolynomialRelation(symbol.value.numer, ">="))
         return symbol
 
     def angle_of(self, y: Traced, x: Traced) -> Traced:
@@ -334,7 +338,7 @@ class Symbols:
         if not self.is_tracing:
             return
         size = self._without_tracing(lambda: y * y + x * x)
-        self.require_not(Condition(size.value.numer, "="), "an arc tangent of (0, 0)")
+        self.require_not(PolynomialRelation(size.value.numer, "="), "an arc tangent of (0, 0)")
 
     def _without_tracing(self, compute: Callable[[], Any]) -> Any:
         """Compute something that the law does not compute."""

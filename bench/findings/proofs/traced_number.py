@@ -6,7 +6,7 @@ import operator
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from bench.findings.proofs.conditions import Condition
+from bench.findings.proofs.conditions import PolynomialRelation
 from bench.findings.proofs.reasons import Untraceable
 
 if TYPE_CHECKING:
@@ -88,7 +88,9 @@ class Traced:
     def sqrt(self) -> Traced:
         """Return the square root, of numerator and denominator."""
         symbols, numer, denom = self.symbols, self.value.numer, self.value.denom
-        symbols.require_not(Condition(numer * denom, "<"), "a square root of a number below zero")
+        symbols.require_not(
+            PolynomialRelation(numer * denom, "<"), "a square root of a number below zero"
+        )
         if not denom.is_ground and symbols.is_negative(Traced(symbols.field(denom), symbols)):
             numer, denom = -numer, -denom
         return symbols.root_of(numer) / symbols.root_of(denom)
@@ -104,7 +106,7 @@ class Traced:
     def acos(self) -> Traced:
         """Return the inverse cosine as the angle of the point (self, sqrt(1 - self^2))."""
         numer, denom = self.value.numer, self.value.denom
-        outside = Condition(denom**2 - numer**2, "<")
+        outside = PolynomialRelation(denom**2 - numer**2, "<")
         self.symbols.require_not(outside, "an inverse cosine of a number outside [-1, 1]")
         return (1 - self * self).sqrt().atan2(self)
 

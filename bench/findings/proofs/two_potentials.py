@@ -20,7 +20,7 @@ from typing import Any
 from flint import arb
 
 from bench.findings.proofs.body import FreeBody
-from bench.findings.proofs.conditions import Condition
+from bench.findings.proofs.conditions import PolynomialRelation
 from bench.findings.proofs.quadratic_potential import find_quadratic
 from bench.findings.proofs.solver import by_algebra, sign_of
 from bench.findings.proofs.theorem import FINITE_JUMPS, LASALLE, Proof, Theorem
@@ -121,7 +121,7 @@ def prove(law: Law) -> Proof:
 
 def normalize(polynomial: Any) -> Any:
     """Return a polynomial over its leading coefficient."""
-    return Condition(polynomial, "=").normal().polynomial
+    return PolynomialRelation(polynomial, "=").normal().polynomial
 
 
 def potential_of_turned(body: FreeBody, M: Any, q: float) -> Traced:
@@ -152,12 +152,20 @@ def conjugate(q: tuple) -> tuple:
 
 
 def is_the_gap(
-    body: FreeBody, potentials: dict[float, Traced], memory: float, q: float, decision: Condition, gap: Fraction
+    body: FreeBody,
+    potentials: dict[float, Traced],
+    memory: float,
+    q: float,
+    decision: PolynomialRelation,
+    gap: Fraction,
 ) -> bool:
     """Tell whether a path's decision is that V_q - V_{-q} is over the gap, where q changes, and that it is not."""
     limit = body.symbols.number(gap) - (potentials[memory] - potentials[-memory])
     relation = ">=" if q == memory else "<"
-    return decision == Condition(body.symbols.without_positive(sign_of(limit)), relation).normal()
+    return (
+        decision
+        == PolynomialRelation(body.symbols.without_positive(sign_of(limit)), relation).normal()
+    )
 
 
 THEOREM = Theorem("two-potentials", "Two potentials, one of them in force", prove, ("synergistic",))

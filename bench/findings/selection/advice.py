@@ -32,7 +32,7 @@ from bench.experiments.situations import (
 )
 from bench.experiments.tables.statistics import quantile
 from bench.findings.floor import find_floor
-from bench.findings.selection.nearest import Answer, Outside, answer, find_outside
+from bench.findings.selection.nearest import MapAnswer, Outside, answer, find_outside
 from bench.findings.selection.pairs import compare_times, find_slower
 from bench.findings.selection.regions import (
     RULE,
@@ -46,7 +46,13 @@ from bench.findings.selection.regions import (
     with_words,
 )
 from bench.findings.theory.bang_bang import angle_of_share, least_time
-from bench.findings.theory.sampled_loop import Limits, Loop, find_limits, settling_time, spectral_radius
+from bench.findings.theory.sampled_loop import (
+    SampledLoop,
+    StabilityLimits,
+    find_limits,
+    settling_time,
+    spectral_radius,
+)
 from bench.law.contender import Contender
 from tasks.situation import KP, Situation
 
@@ -76,7 +82,7 @@ class NearGoal(NamedTuple):
 
     radius: float
     time: float
-    limits: Limits | None
+    limits: StabilityLimits | None
     least: float
 
     @property
@@ -85,9 +91,9 @@ class NearGoal(NamedTuple):
         return self.radius >= 1.0 or max(self.time, self.least) > HORIZON
 
 
-def loop_of(at: Situation) -> Loop:
+def loop_of(at: Situation) -> SampledLoop:
     """Return the linear loop of a situation, with kp = 1."""
-    return Loop(1.0, 2.0 * at.zeta, at.period, at.delay, at.inertia, at.unevenness)
+    return SampledLoop(1.0, 2.0 * at.zeta, at.period, at.delay, at.inertia, at.unevenness)
 
 
 def look_near_goal(at: Situation) -> NearGoal:
@@ -120,7 +126,7 @@ def find_least_time(at: Situation, count: int, seed: int) -> float:
     return float(quantile(floor.times, CROWD)) * math.sqrt(KP)
 
 
-class Trial(NamedTuple):
+class LawTrial(NamedTuple):
     """A law in a situation: the numbers of its drawn starts, as `situations.run_starts` gives them, and the counts.
 
     stuck, trapped: exact 180° rotations that do not settle, and those that do not under worst-case noise.
@@ -167,10 +173,10 @@ class Trials:
         self.at, self.report = at, report
         self.first, self.most = first, most
         self.request = Request("situations", seed=seed)
-        self.by_law: dict[str, Trial] = {}
+        self.by_law: dict[str, LawTrial] = {}
         self.known = {law.name: law for law in mapped_laws()}
 
-    def run(self, law: str, count: int | None = None) -> Trial:
+    def run(self, law: str, count: int | None = None) -> LawTrial:
         """Return a law's trial of at least so many starts, `first` if None; those that ran before are kept."""
         count = count or self.first
         before = self.by_law.get(law)
@@ -187,7 +193,7 @@ class Trials:
         else:
             exact, noisy = run_half_turns(self.request, contender, self.at)
             stuck, trapped = (int((numbers["time"] == math.inf).sum()) for numbers in (exact, noisy))
-            trial = Trial(contender, self.at, drawn, stuck, trapped)
+            trial = LawTrial(contender, self.at, drawn, stuck, trapped)
         self.by_law[law] = trial
         return trial
 
@@ -218,7 +224,7 @@ class Advice(NamedTuple):
     law: str | None
     near_goal: NearGoal
     outside: tuple[Outside, ...] = ()
-    nearest: Answer | None = None
+    nearest: MapAnswer | None = None
     rows: pd.DataFrame | None = None
     qualified: tuple[str, ...] = ()
     ours: tuple[str, ...] = ()
@@ -295,7 +301,7 @@ def list_unmapped(folder: Path = STUDY) -> list[str]:
     return [law.name for law in mapped_laws() if law.name not in mapped]
 
 
-def shortlist(nearest: Answer, rule: Rule, folder: Path = STUDY) -> tuple[str, ...]:
+def shortlist(nearest: MapAnswer, rule: Rule, folder: Path = STUDY) -> tuple[str, ...]:
     """Return the laws that are tried: the map's, and the fastest other one that lacks what is required there.
 
     Where many numbers are far from those of the map at once, the nearest situations are not near, and a law that is

@@ -26,7 +26,7 @@ from bench.findings.selection.advice import SEED, Advice, Trials, advise
 from bench.findings.selection.felt_inertia import Felt, feel
 from bench.findings.selection.regions import Rule
 from bench.findings.selection.tool_chain import ToolChain, load_arm
-from bench.findings.theory.sampled_loop import FACTOR, Loop, is_stable, last_stable
+from bench.findings.theory.sampled_loop import FACTOR, SampledLoop, is_stable, last_stable
 from tasks.situation import COORDINATES, Situation, rounded
 
 ZETA = 1.0
@@ -50,7 +50,7 @@ SHORTEST = min(COORDINATES["period"].levels)
 """The map's shortest period [1/sqrt(kp)]: a shorter one is hardly different, and becomes this."""
 
 
-class Question(NamedTuple):
+class ArmQuestion(NamedTuple):
     """What the user says.
 
     stiffness: K [N m/rad]. damping: D [N m s/rad], None if the answer is to propose it. torque: greatest torque
@@ -71,9 +71,9 @@ class Question(NamedTuple):
         """Return the mean age [s] of a command: the delay and half a period."""
         return self.delay + 0.5 * self.period
 
-    def loop_about(self, inertia: float, damping: float) -> Loop:
+    def loop_about(self, inertia: float, damping: float) -> SampledLoop:
         """Return the loop about an axis, with K and D in place of kp and kv."""
-        return Loop(self.stiffness, damping, self.period, self.delay, inertia)
+        return SampledLoop(self.stiffness, damping, self.period, self.delay, inertia)
 
     def design(self, inertia: float) -> float:
         """Return D of the ratio ZETA about an axis: 2 zeta sqrt(K J)."""
@@ -106,7 +106,7 @@ class Body(NamedTuple):
     at: Situation
 
 
-class End(NamedTuple):
+class StiffnessEnd(NamedTuple):
     """One end of the range of kp, and what is advised there."""
 
     body: Body
@@ -122,18 +122,18 @@ class ArmAnswer(NamedTuple):
     pose by pose.
     """
 
-    question: Question
+    question: ArmQuestion
     chain: ToolChain
     felt: Felt
     motors: tuple[float, float] | None
     damping: float
     limits: Range
     is_stable: bool
-    light: End
-    heavy: End
+    light: StiffnessEnd
+    heavy: StiffnessEnd
 
 
-def find_range(question: Question, inertia: float, damping: float) -> Range:
+def find_range(question: ArmQuestion, inertia: float, damping: float) -> Range:
     """Return what is stable about an axis of this inertia."""
     low, high = find_dampings(question, inertia)
     greatest = math.nan
@@ -147,12 +147,12 @@ def find_range(question: Question, inertia: float, damping: float) -> Range:
     return Range(low, high, greatest, designed.with_kv(_rise(designed.with_kv, slow)).kp)
 
 
-def _rise(changed: Callable[[float], Loop], first: float) -> float:
+def _rise(changed: Callable[[float], SampledLoop], first: float) -> float:
     """Return the value up to which a loop is stable, from a low one on; NaN if that is not."""
     return last_stable(changed, first, FACTOR, DECADES * first)
 
 
-def find_dampings(question: Question, inertia: float) -> tuple[float, float]:
+def find_dampings(question: ArmQuestion, inertia: float) -> tuple[float, float]:
     """Return the least and the greatest D with which an axis is stable at K; NaN if none is.
 
     The least is about K (delay + half a period), and the greatest of the order of J over that time.
@@ -160,7 +160,7 @@ def find_dampings(question: Question, inertia: float) -> tuple[float, float]:
     lateness = question.lateness
     first, last = 0.5 * question.stiffness * lateness, 4.0 * inertia / lateness
 
-    def damped(damping: float) -> Loop:
+    def damped(damping: float) -> SampledLoop:
         return question.loop_about(inertia, damping)
 
     for damping in np.geomspace(first, max(last, 2.0 * first), CANDIDATES):
@@ -171,7 +171,7 @@ def find_dampings(question: Question, inertia: float) -> tuple[float, float]:
 
 
 def answer_arm(
-    question: Question,
+    question: ArmQuestion,
     chain: ToolChain,
     arm: str | None = None,
     rule: Rule | None = None,
@@ -188,7 +188,7 @@ def answer_arm(
     for body in find_bodies(question, felt):
         trials = Trials(body.at, SEED, report, FIRST, MOST)
         advice = advise(body.at, rule or Rule(), is_whole, SEED, report, trials=trials)
-        ends.append(End(body, advice))
+        ends.append(StiffnessEnd(body, advice))
     light, heavy = ends
     return ArmAnswer(
         question=question,
@@ -203,7 +203,7 @@ def answer_arm(
     )
 
 
-def propose_damping(question: Question, felt: Felt) -> float:
+def propose_damping(question: ArmQuestion, felt: Felt) -> float:
     """Return a constant D: of the ratio ZETA about heavy axes if light ones bear it.
 
     NaN if no D is stable. Where MARGIN would leave the stable range, D is the middle of the range.
@@ -221,7 +221,7 @@ def feel_motors(arm: str) -> tuple[float, float]:
     return least, greatest
 
 
-def find_bodies(question: Question, felt: Felt) -> tuple[Body, Body]:
+def find_bodies(question: ArmQuestion, felt: Felt) -> tuple[Body, Body]:
     """Return the lightest and the heaviest body for which `advise` chooses a law.
 
     With the unevenness s, a body of mean inertia J has moments from (1 - s) J to (1 + s) J.
@@ -232,7 +232,7 @@ def find_bodies(question: Question, felt: Felt) -> tuple[Body, Body]:
     return _find_body(question, light, uneven), _find_body(question, heavy, uneven)
 
 
-def _find_body(question: Question, inertia: float, uneven: float) -> Body:
+def _find_body(question: ArmQuestion, inertia: float, uneven: float) -> Body:
     """Return a body of this mean inertia and unevenness, in the question's situation."""
     kp = question.stiffness / inertia
     root = math.sqrt(kp)

@@ -15,7 +15,7 @@ from bench.findings.selection.regions import (
     RULE,
     STUDY,
     Rule,
-    Verdict,
+    RuleVerdict,
     decide,
     decide_at,
     group_map,
@@ -43,7 +43,7 @@ def find_outside(at: Situation) -> tuple[Outside, ...]:
     return tuple(outside)
 
 
-class Answer(NamedTuple):
+class MapAnswer(NamedTuple):
     """What the map says of a user's situation: the nearest that was run, its verdict and rows, and how sure it is.
 
     distance: of the scaled numbers; 0: this very situation was run. agree: of the nearest other situations, those in
@@ -51,14 +51,16 @@ class Answer(NamedTuple):
     """
 
     at: Situation
-    verdict: Verdict
+    verdict: RuleVerdict
     rows: pd.DataFrame
     distance: float
     agree: tuple[int, int]
     laws: tuple[str, ...]
 
 
-def decide_nearest(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -> tuple[Situation, Verdict]:
+def decide_nearest(
+    wanted: Situation, rule: Rule = RULE, folder: Path = STUDY
+) -> tuple[Situation, RuleVerdict]:
     """Return the situation of the map that is nearest to the user's, and its verdict; no other one is decided."""
     rows = read_map(folder)
     situations = [read_situation(str(word)) for word in rows["situation"].unique()]
@@ -68,7 +70,7 @@ def decide_nearest(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -
     return nearest, decide(rows[rows["situation"] == nearest.word], rule, pairs)
 
 
-def answer(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -> Answer:
+def answer(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -> MapAnswer:
     """Return the verdict on the situation of the map that is nearest to the user's."""
     situations = list(group_map(folder))
     places = np.array([at.scaled() for at in situations])
@@ -85,7 +87,7 @@ def answer(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -> Answer
         unbeaten.update(each.unbeaten)
     laws = [name for name, _ in unbeaten.most_common() if name != law]
     rows = read_map(folder)
-    return Answer(
+    return MapAnswer(
         nearest,
         verdict,
         rows[rows["situation"] == nearest.word],

@@ -79,19 +79,22 @@ PAIRED = ("time", "missed")
 """Numbers by which laws are compared start by start."""
 
 
-class Verdict(NamedTuple):
+class RuleVerdict(NamedTuple):
     """What the rule makes of a situation.
 
-    law: the one that is advised, None if none is left. tied: the others that nothing beats, the simplest first. ours:
-    our own laws that no other law beats. faster: those of them that beat the advised one. asked: how many laws
-    have what is required.
+    Attributes:
+        law: The law that is advised; None if none is left.
+        tied: The others that nothing beats, the simplest first.
+        ours: Our own laws that no other law beats.
+        faster: Those of our own laws that beat the advised one.
+        eligible: Number of laws that meet the requirements.
     """
 
     law: str | None
     tied: tuple[str, ...] = ()
     ours: tuple[str, ...] = ()
     faster: tuple[str, ...] = ()
-    asked: int = 0
+    eligible: int = 0
 
     @property
     def unbeaten(self) -> frozenset[str]:
@@ -141,7 +144,7 @@ def with_words(rows: pd.DataFrame) -> pd.DataFrame:
     return with_contender(rows).assign(situation=words)
 
 
-def decide(rows: pd.DataFrame, rule: Rule = RULE, pairs: pd.DataFrame | None = None) -> Verdict:
+def decide(rows: pd.DataFrame, rule: Rule = RULE, pairs: pd.DataFrame | None = None) -> RuleVerdict:
     """Apply the rule to the rows of one situation, a law each; pairs: the comparisons of its laws, two by two.
 
     Without pairs the two intervals must not overlap instead, which leaves more ties.
@@ -152,7 +155,7 @@ def decide(rows: pd.DataFrame, rule: Rule = RULE, pairs: pd.DataFrame | None = N
     facts = list_facts(qualified)
     is_ours = np.array([fact.is_ours for fact in facts], dtype=bool)
     if is_ours.all():  # or none is left
-        return Verdict(None, ours=tuple(laws))
+        return RuleVerdict(None, ours=tuple(laws))
     beaten = find_beaten(qualified, rule, pairs)
     is_beaten = np.any(beaten[:, ~is_ours], axis=1)
     order = ["peak"] if rule.least_peak else []
@@ -163,7 +166,7 @@ def decide(rows: pd.DataFrame, rule: Rule = RULE, pairs: pd.DataFrame | None = N
     names = np.array(laws)
     ours = names[is_ours & ~is_beaten].tolist()
     faster = names[is_ours & beats_advised].tolist()
-    return Verdict(law, tuple(tied), tuple(ours), tuple(faster), len(laws))
+    return RuleVerdict(law, tuple(tied), tuple(ours), tuple(faster), len(laws))
 
 
 def meets(rows: pd.DataFrame, rule: Rule = RULE) -> np.ndarray:
@@ -228,12 +231,12 @@ def group_map(folder: Path = STUDY) -> dict[Situation, pd.DataFrame]:
 
 
 @functools.cache
-def decide_at(at: Situation, folder: Path = STUDY, rule: Rule = RULE) -> Verdict:
+def decide_at(at: Situation, folder: Path = STUDY, rule: Rule = RULE) -> RuleVerdict:
     """Return the rule's verdict on one situation of a map."""
     return decide(group_map(folder)[at], rule, read_pairs(folder).get(at.word))
 
 
-def decide_all(folder: Path = STUDY, rule: Rule = RULE) -> dict[Situation, Verdict]:
+def decide_all(folder: Path = STUDY, rule: Rule = RULE) -> dict[Situation, RuleVerdict]:
     """Return the rule's verdict on every situation of a map."""
     return {at: decide_at(at, folder, rule) for at in group_map(folder)}
 

@@ -18,7 +18,7 @@ SOON_S = 0.2
 """Latest jump that finds the body far from its first goal [s]: two time constants 1/10 s."""
 
 
-class Side(NamedTuple):
+class MemorySide(NamedTuple):
     """Jumps with the memory kept, or with it reset. starts: of all levels up to SOON_S.
 
     far: starts more than FAR_RAD from the new goal. long: of these, paths over DETOUR times the angle at the jump.
@@ -39,11 +39,11 @@ class Side(NamedTuple):
 class Resets(NamedTuple):
     """A law's jumps over hundreds of starts a level (results/robustness)."""
 
-    kept: Side
-    reset: Side
+    kept: MemorySide
+    reset: MemorySide
 
 
-class Pairs(NamedTuple):
+class ResetPairs(NamedTuple):
     """Starts of a run with the memory kept, and the same starts with it reset. differ: pairs whose times differ.
 
     later: of these, pairs in which the reset settles later; shorter: in which its path is shorter. delay_s: the median
@@ -64,9 +64,9 @@ def study_resets(law: str) -> Resets:
     return Resets(*(_side(rows[rows["axis"] == axis]) for axis in (KEPT, RESET)))
 
 
-def _side(rows: pd.DataFrame) -> Side:
+def _side(rows: pd.DataFrame) -> MemorySide:
     times = rows["median_s"]
-    return Side(
+    return MemorySide(
         int(rows["starts"].sum()),
         int(rows["far"].sum()),
         int(rows["long"].sum()),
@@ -74,7 +74,7 @@ def _side(rows: pd.DataFrame) -> Side:
     )
 
 
-def pair_resets(rows: pd.DataFrame, law: str) -> Pairs:
+def pair_resets(rows: pd.DataFrame, law: str) -> ResetPairs:
     """Return what a reset changes start by start; rows: of robustness.parquet with `contender`."""
     rows = rows[(rows["contender"] == law) & (rows["level"] > 0.0) & (rows["level"] <= SOON_S)]
     rows = rows.assign(time=rows["settling_time_s"].where(rows["outcome"] == "settled", np.inf))
@@ -83,7 +83,7 @@ def pair_resets(rows: pd.DataFrame, law: str) -> Pairs:
     both = kept.merge(reset, left_index=True, right_index=True, suffixes=("_kept", "_reset"), validate="one_to_one")
     differing = both[both["time_kept"] != both["time_reset"]]
     delays = (differing["time_reset"] - differing["time_kept"]).to_numpy()
-    return Pairs(
+    return ResetPairs(
         len(both),
         len(differing),
         int((delays > 0.0).sum()),
@@ -105,6 +105,6 @@ def describe_resets(law: str) -> str:
     )
 
 
-def _range(side: Side) -> str:
+def _range(side: MemorySide) -> str:
     low, high = (f"{time:.3f}" for time in side.median_s)
     return low if low == high else f"{low} to {high}"

@@ -13,7 +13,7 @@ from bench.base.errors import NoEvidence
 from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.selection.nearest import answer
-from bench.findings.selection.regions import Rule, Verdict, decide, find_default
+from bench.findings.selection.regions import Rule, RuleVerdict, decide, find_default
 from bench.findings.selection.run_rows import (
     Compared,
     compare_arms,
@@ -69,7 +69,7 @@ def compare_for(robot: Robot, folder: Path) -> Compared:
     return robot.compare(Run(folder))
 
 
-def decide_for(robot: Robot, folder: Path = RUN) -> Verdict | None:
+def decide_for(robot: Robot, folder: Path = RUN) -> RuleVerdict | None:
     """Return what is advised for a robot by the run in a folder; None where the run has no such rows."""
     try:
         compared = compare_for(robot, folder)
@@ -92,13 +92,20 @@ def list_elsewhere() -> list[Elsewhere]:
     uneven = answer(UNCANCELLED).verdict
     stores, jumps = Rule(forgetful=True), Rule(continuous=True)
     found = [
-        Elsewhere("you command torques, and cancel no inertia", uneven.law or "none", uneven.tied, uneven.asked),
-        Elsewhere("your controller stores nothing between control periods", find_default(rule=stores)),
+        Elsewhere(
+            "you command torques, and cancel no inertia",
+            uneven.law or "none",
+            uneven.tied,
+            uneven.eligible,
+        ),
+        Elsewhere(
+            "your controller stores nothing between control periods", find_default(rule=stores)
+        ),
         Elsewhere("the command must be continuous", find_default(rule=jumps)),
     ]
     for robot in ROBOTS.values():
         verdict = decide_for(robot)
         if verdict and verdict.law:
             words = f"your robot takes {robot.takes}"
-            found.append(Elsewhere(words, verdict.law, verdict.tied, verdict.asked))
+            found.append(Elsewhere(words, verdict.law, verdict.tied, verdict.eligible))
     return found

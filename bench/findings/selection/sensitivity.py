@@ -12,7 +12,7 @@ from bench.findings.selection import regions
 from bench.findings.selection.nearest import answer
 from bench.findings.selection.pairs import compare_with_all
 from bench.findings.selection.regions import RULE, STUDY, Rule, decide_all, find_default, find_regions, read_map
-from bench.findings.selection.unbeaten import SPOKEN, Share, compare_everywhere
+from bench.findings.selection.unbeaten import SPOKEN, SituationShare, compare_everywhere
 from tasks.situation import NOMINAL, Situation, read_situation
 
 RULES = {  # ours, and those that a critic would choose
@@ -180,9 +180,9 @@ class Rated(NamedTuple):
     half, most: median and 95 % of the share of time that the advised law takes longer than the fastest qualified law.
     """
 
-    qualified: Share
-    all: Share
-    slower: Share
+    qualified: SituationShare
+    all: SituationShare
+    slower: SituationShare
     half: float
     most: float
 
@@ -194,7 +194,7 @@ class Agreement(NamedTuple):
     are. default: how good the default is, advised everywhere.
     """
 
-    same: Share
+    same: SituationShare
     map: Rated
     default: Rated
 
@@ -206,7 +206,9 @@ def count_agreeing(folder: Path = STUDY) -> Agreement:
     answers = {at: answer(at, RULE, folder).verdict.law for at in verdicts}
     same = sum(answers[at] == verdict.law for at, verdict in verdicts.items())
     default: dict[Situation, str | None] = dict.fromkeys(verdicts, find_default(folder))
-    return Agreement(Share(same, len(verdicts)), rate(answers, folder), rate(default, folder))
+    return Agreement(
+        SituationShare(same, len(verdicts)), rate(answers, folder), rate(default, folder)
+    )
 
 
 def rate(answers: dict[Situation, str | None], folder: Path) -> Rated:
@@ -231,6 +233,6 @@ def rate(answers: dict[Situation, str | None], folder: Path) -> Rated:
             times = rows[rows["situation"] == situation.word].set_index("contender")["time"]
             best = min(times[name] for name in verdict.unbeaten)
             longer.append(times.get(law, math.inf) / best - 1.0)
-    shares = {name: Share(count, len(verdicts)) for name, count in counts.items()}
+    shares = {name: SituationShare(count, len(verdicts)) for name, count in counts.items()}
     half, most = (float(np.quantile(longer, level, method="inverted_cdf")) for level in (0.5, 0.95))
     return Rated(shares["qualified"], shares["all"], shares["slower"], half, most)

@@ -34,7 +34,7 @@ class Rival(NamedTuple):
     qualified: bool
 
 
-class Standing(NamedTuple):
+class SituationStanding(NamedTuple):
     """How a law stands in a situation. meets: it meets the requirements. lost: starts that it loses.
 
     rivals: published and adapted laws that are faster by more than the tie, and not by chance; the fastest first.
@@ -52,7 +52,7 @@ class Standing(NamedTuple):
 @functools.lru_cache(maxsize=256)
 def compare_everywhere(
     law: str, folder: Path = STUDY, rule: Rule = RULE, tie: float | None = None
-) -> dict[Situation, Standing]:
+) -> dict[Situation, SituationStanding]:
     """Return how a law stands in every situation of a map; tie: the rule's if None."""
     notable = -math.log1p(-(rule.tie if tie is None else tie))
     rows = read_map(folder)
@@ -71,7 +71,9 @@ def compare_everywhere(
     found = {}
     for row in rows[rows["contender"] == law].to_dict("records"):
         word = row["situation"]
-        found[read_situation(word)] = Standing(bool(row["meets"]), int(row["lost"]), tuple(rivals.get(word, ())))
+        found[read_situation(word)] = SituationStanding(
+            bool(row["meets"]), int(row["lost"]), tuple(rivals.get(word, ()))
+        )
     return found
 
 
@@ -79,7 +81,7 @@ def _is_ours(law: str) -> bool:
     return facts_of(law).is_ours
 
 
-class Share(NamedTuple):
+class SituationShare(NamedTuple):
     """So many of so many situations."""
 
     number: int
@@ -110,10 +112,10 @@ class Shares(NamedTuple):
     failing: the law fails a requirement. losing: it loses starts.
     """
 
-    qualified: Share
-    all: Share
-    failing: Share
-    losing: Share
+    qualified: SituationShare
+    all: SituationShare
+    failing: SituationShare
+    losing: SituationShare
 
 
 def measure_shares(
@@ -132,7 +134,7 @@ def measure_shares(
         sum(not standing.meets for standing in drawn),
         sum(standing.lost > 0 for standing in drawn),
     )
-    return Shares(*(Share(count, len(drawn)) for count in counts))
+    return Shares(*(SituationShare(count, len(drawn)) for count in counts))
 
 
 class Population(NamedTuple):
@@ -160,7 +162,9 @@ def find_population(folder: Path = STUDY, rule: Rule = RULE) -> Population:
     )
 
 
-def find_least_beaten(folder: Path = STUDY, rule: Rule = RULE, tie: float = SPOKEN) -> tuple[str, Share]:
+def find_least_beaten(
+    folder: Path = STUDY, rule: Rule = RULE, tie: float = SPOKEN
+) -> tuple[str, SituationShare]:
     """Return the law that is unbeaten by qualified laws in most of the drawn situations, and in which share.
 
     Laws of ours are left out. The rule's default can be another law: where laws tie, it advises the simplest.
@@ -172,7 +176,7 @@ def find_least_beaten(folder: Path = STUDY, rule: Rule = RULE, tie: float = SPOK
 
 def count_rivals(
     law: str, among_all: bool, folder: Path = STUDY, rule: Rule = RULE, tie: float | None = None
-) -> dict[str, Share]:
+) -> dict[str, SituationShare]:
     """Return in which share of the drawn situations each law of a set is faster than a law; the most often first."""
     every = compare_everywhere(law, folder, rule, tie)
     drawn = [standing for situation, standing in every.items() if is_drawn(situation)]
@@ -182,25 +186,25 @@ def count_rivals(
             if among_all or rival.qualified:
                 counts[rival.law] = counts.get(rival.law, 0) + 1
     ordered = sorted(counts.items(), key=lambda item: (-item[1], item[0]))
-    return {rival: Share(count, len(drawn)) for rival, count in ordered}
+    return {rival: SituationShare(count, len(drawn)) for rival, count in ordered}
 
 
-class Place(NamedTuple):
+class ValueOnLine(NamedTuple):
     """A value of one number of the nominal situation, the others kept, and how a law stands there."""
 
     value: float
-    standing: Standing
+    standing: SituationStanding
 
 
 def follow_lines(
     law: str, folder: Path = STUDY, rule: Rule = RULE, tie: float | None = None
-) -> dict[str, list[Place]]:
+) -> dict[str, list[ValueOnLine]]:
     """Return how a law stands along each line through the nominal situation, by the name of the number that varies."""
     every = compare_everywhere(law, folder, rule, tie)
-    lines: dict[str, list[Place]] = {}
+    lines: dict[str, list[ValueOnLine]] = {}
     for name, nominal in zip(regions.NAMES, NOMINAL, strict=True):
         line = [situation for situation in every if situation._replace(**{name: nominal}) == NOMINAL]
-        places = [Place(getattr(situation, name), every[situation]) for situation in line]
+        places = [ValueOnLine(getattr(situation, name), every[situation]) for situation in line]
         lines[name] = sorted(places, key=lambda place: place.value)
     return lines
 
@@ -219,7 +223,9 @@ def find_bounds(
     }
 
 
-def compare_with_advised(law: str, folder: Path = STUDY, rule: Rule = RULE, tie: float = SPOKEN) -> Share:
+def compare_with_advised(
+    law: str, folder: Path = STUDY, rule: Rule = RULE, tie: float = SPOKEN
+) -> SituationShare:
     """Return in which share of the drawn situations a law meets the requirements and is faster than the advised law."""
     standings = compare_everywhere(law, folder, rule)
     verdicts = regions.decide_all(folder, rule)
@@ -230,7 +236,7 @@ def compare_with_advised(law: str, folder: Path = STUDY, rule: Rule = RULE, tie:
     count = 0
     for situation in drawn:
         count += standings[situation].meets and (situation.word, verdicts[situation].law) in beaten
-    return Share(count, len(drawn))
+    return SituationShare(count, len(drawn))
 
 
 class Price(NamedTuple):

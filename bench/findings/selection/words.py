@@ -11,7 +11,7 @@ from bench.findings.selection.regions import (
     RULE,
     STUDY,
     Rule,
-    Verdict,
+    RuleVerdict,
     find_overshooting,
     list_ours,
     meets,
@@ -20,8 +20,8 @@ from bench.findings.selection.run_rows import Compared
 from bench.findings.selection.tables import ComparedRows
 from bench.findings.selection.unbeaten import (
     SPOKEN,
-    Place,
     Rival,
+    ValueOnLine,
     compare_with_advised,
     find_population,
     find_price,
@@ -37,13 +37,13 @@ NAMED = 3
 Called = Callable[[str], str]
 
 
-def standing(verdict: Verdict, called: Called) -> str:
+def standing(verdict: RuleVerdict, called: Called) -> str:
     """Say that the advised law alone is unbeaten, or with which laws it ties."""
-    if verdict.asked == 1:
+    if verdict.eligible == 1:
         return "No other law of this run meets the requirements."
     if not verdict.tied:
         return (
-            f"{verdict.asked} laws meet the requirements. Each of the other published and adapted laws is more than "
+            f"{verdict.eligible} laws meet the requirements. Each of the other published and adapted laws is more than "
             f"{percent(RULE.tie)} slower than one of these laws; the advised law is not."
         )
     return f"The law ties with {together([called(law) for law in verdict.tied])} and is the simplest of these laws."
@@ -133,7 +133,9 @@ def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:
     return "; ".join(parts) or "nowhere"
 
 
-def describe_rivals(lines: dict[str, list[Place]], among_all: bool, called: Called = str) -> str:
+def describe_rivals(
+    lines: dict[str, list[ValueOnLine]], among_all: bool, called: Called = str
+) -> str:
     """Say where laws of a set are faster, in brackets which one by the most, and by how much of the time.
 
     lines: of `unbeaten.follow_lines`. among_all: of all published and adapted laws, else of those that meet the

@@ -80,7 +80,7 @@ class Bodies(NamedTuple):
         return Bodies(*(values[..., places] for values in self))
 
 
-class End(NamedTuple):
+class MotionEnds(NamedTuple):
     """The ends of motions: the turn q, omega and L, one a column."""
 
     quat: np.ndarray
@@ -88,7 +88,7 @@ class End(NamedTuple):
     L: np.ndarray
 
 
-Target = Callable[[Bodies, np.ndarray, End], np.ndarray]
+Target = Callable[[Bodies, np.ndarray, MotionEnds], np.ndarray]
 """What is missing of a target with these unknowns and ends; shape (any, n)."""
 
 
@@ -203,12 +203,12 @@ def find_missing(bodies: Bodies, unknown: np.ndarray, target: Target, steps: int
     return np.vstack([target(bodies, unknown, end), size])
 
 
-def miss_rest(bodies: Bodies, unknown: np.ndarray, end: End) -> np.ndarray:
+def miss_rest(bodies: Bodies, unknown: np.ndarray, end: MotionEnds) -> np.ndarray:
     """Return what is missing to rest at the goal: the rotation vector and omega."""
     return np.vstack([rotation_vector(end.quat), end.omega])
 
 
-def miss_band(bodies: Bodies, unknown: np.ndarray, end: End) -> np.ndarray:
+def miss_band(bodies: Bodies, unknown: np.ndarray, end: MotionEnds) -> np.ndarray:
     """Return what is missing to an arrival in the band for good, as the module has it.
 
     All is over the band, and nothing is over |p|: so that a guess that misses by several bands is led to it.
@@ -230,7 +230,7 @@ def miss_band(bodies: Bodies, unknown: np.ndarray, end: End) -> np.ndarray:
     return np.vstack([touching, excess, transverse, late]) / bodies.band
 
 
-def follow(bodies: Bodies, unknown: np.ndarray, steps: int = STEPS) -> End:
+def follow(bodies: Bodies, unknown: np.ndarray, steps: int = STEPS) -> MotionEnds:
     """Return the ends of the extremals that begin with the unknowns, by the Runge-Kutta method."""
     N = unknown[3:6]
     step = np.exp(unknown[6]) / steps
@@ -245,7 +245,7 @@ def follow(bodies: Bodies, unknown: np.ndarray, steps: int = STEPS) -> End:
         slope = find_rates(state + step * slope, N)
         total += slope
         state = state + (step / 6.0) * total
-    return End(state[:4], state[4:7], state[7:])
+    return MotionEnds(state[:4], state[4:7], state[7:])
 
 
 def find_rates(state: np.ndarray, N: np.ndarray) -> np.ndarray:

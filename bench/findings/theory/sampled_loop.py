@@ -43,7 +43,7 @@ SAMPLES = 4000
 """Ticks at most at which a response is looked at."""
 
 
-class Loop(NamedTuple):
+class SampledLoop(NamedTuple):
     """Gains over the model's inertia [1/s^2], [1/s]; times [s]; the true inertia over the model's, and unevenness s."""
 
     kp: float
@@ -64,12 +64,12 @@ class Loop(NamedTuple):
         factors = (1.0 - self.unevenness, 1.0, 1.0 + self.unevenness)
         return tuple(dict.fromkeys(self.inertia * factor for factor in factors))
 
-    def with_kv(self, kv: float) -> Loop:
+    def with_kv(self, kv: float) -> SampledLoop:
         """Return the loop with another kv at the same damping ratio."""
         return self._replace(kv=kv, kp=(0.5 * kv / self.zeta) ** 2)
 
 
-def transition(loop: Loop, moment: float) -> np.ndarray:
+def transition(loop: SampledLoop, moment: float) -> np.ndarray:
     """Return the matrix from tick to tick about an axis; states: x, x', and the commands on their way, newest first."""
     period, delay = loop.period, loop.delay
     if delay > MOST_TICKS * period:
@@ -97,17 +97,17 @@ def transition(loop: Loop, moment: float) -> np.ndarray:
     return step
 
 
-def spectral_radius(loop: Loop) -> float:
+def spectral_radius(loop: SampledLoop) -> float:
     """Return the greatest size of an eigenvalue, of any axis: errors grow by it a tick where it is above 1."""
     return max(float(np.abs(np.linalg.eigvals(transition(loop, moment))).max()) for moment in loop.moments)
 
 
-def is_stable(loop: Loop) -> bool:
+def is_stable(loop: SampledLoop) -> bool:
     """Tell whether every error near the goal dies out."""
     return spectral_radius(loop) < 1.0
 
 
-def settling_time(loop: Loop, horizon: float) -> float:
+def settling_time(loop: SampledLoop, horizon: float) -> float:
     """Return the time [s] after which an error that began at rest stays below the band, of the slowest axis.
 
     Beyond the horizon: the time in which the slowest mode shrinks to it. Infinite for a loop that is not stable.
@@ -115,7 +115,7 @@ def settling_time(loop: Loop, horizon: float) -> float:
     return max(_settling_about(loop, moment, horizon) for moment in loop.moments)
 
 
-def _settling_about(loop: Loop, moment: float, horizon: float) -> float:
+def _settling_about(loop: SampledLoop, moment: float, horizon: float) -> float:
     step = transition(loop, moment)
     radius = float(np.abs(np.linalg.eigvals(step)).max())
     if radius >= 1.0:
@@ -140,7 +140,7 @@ def mode_time(radius: float, period: float) -> float:
     return period * math.log(RULES.tolerance) / math.log(radius) if radius < 1.0 else math.inf
 
 
-class Limits(NamedTuple):
+class StabilityLimits(NamedTuple):
     """What makes an unstable loop stable, one number changed at a time; NaN: no value of that number alone does.
 
     kv, kp: below this kv, at the same damping ratio; kp is what it then is. kv_low, kv_high: between these at the same
@@ -156,7 +156,7 @@ class Limits(NamedTuple):
     rate: float
 
 
-def find_limits(loop: Loop) -> Limits:
+def find_limits(loop: SampledLoop) -> StabilityLimits:
     """Return the limits of a loop, each found from the side on which it is stable."""
     # So small that the loop is slow beside its own delay and period, whatever its damping ratio of use is.
     slow_kv = 1e-3 * min(loop.moments) / (loop.delay + loop.period)
@@ -173,10 +173,10 @@ def find_limits(loop: Loop) -> Limits:
         1.0 / FACTOR,
         1.0 / loop.period,
     )
-    return Limits(kv, loop.with_kv(kv).kp, kv_low, kv_high, kp_alone, delay, rate)
+    return StabilityLimits(kv, loop.with_kv(kv).kp, kv_low, kv_high, kp_alone, delay, rate)
 
 
-def find_band(loop: Loop) -> tuple[float, float]:
+def find_band(loop: SampledLoop) -> tuple[float, float]:
     """Return the least and greatest kv between which the loop is stable at its kp; of several bands the nearest one."""
     factors = FACTOR ** np.arange(-120, 121)
     values = [loop.kv * factor for factor in factors]
@@ -198,7 +198,9 @@ def find_band(loop: Loop) -> tuple[float, float]:
     return low, high
 
 
-def last_stable(changed: Callable[[float], Loop], first: float, factor: float, end: float) -> float:
+def last_stable(
+    changed: Callable[[float], SampledLoop], first: float, factor: float, end: float
+) -> float:
     """Return the last value, from `first` by steps of a factor to `end`, up to which the loop is stable; NaN: none."""
     if not is_stable(changed(first)):
         return math.nan

@@ -19,7 +19,7 @@ from bench.law.contender import Contender
 from bench.law.contenders.registry import contenders, contenders_of, representation
 from bench.law.display import COLOURS, LINES, MARKERS, Equation, Look
 from bench.law.inputs import NO_MEMORY, Goal, Tuning
-from bench.law.kinds import USERS_ROLES, Law, OnCoordinates, UserFile
+from bench.law.kinds import FORMER_FIELDS, USERS_ROLES, Law, OnCoordinates, UserFile
 from bench.law.so3 import Rotation
 
 WORD = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
@@ -95,7 +95,7 @@ def load_law(path: Path, text: bytes | None = None) -> Law:
     return own._replace(file=UserFile(str(path), text.decode()), attribution=YOURS)
 
 
-FORMER_FIELDS = {
+CURES = {
     "level": "omit it, for a law commands an angular acceleration",
     "gains": "omit it, for a law is called with its gains",
     "in_engine": "omit it, for MuJoCo's own actuator would run in place of the law",
@@ -107,6 +107,22 @@ FORMER_FIELDS = {
 }
 """What to write in place of a field that a `Law` had before."""
 
+
+
+def note_former_fields(text: str) -> str:
+    """Return a note on fields that a file writes by their former names; empty if there are none."""
+    keywords = {node.arg for node in ast.walk(ast.parse(text)) if isinstance(node, ast.keyword)}
+    changes = []
+    for former, field in FORMER_FIELDS.items():
+        if former in keywords:
+            changes.append(f"write {field}= in place of {former}=")
+    return (
+        f"{'; '.join(changes)} (the former name is accepted for one more release)"
+        if changes
+        else ""
+    )
+
+
 NO_FIELD = re.compile(r".*unexpected keyword argument '(\w+)'.*", re.DOTALL)
 
 
@@ -115,7 +131,7 @@ def _cure(error: BaseException, text: bytes) -> str:
     if isinstance(error, ImportError):
         return _new_imports(text)
     field = NO_FIELD.sub(r"\1", str(error))
-    return FORMER_FIELDS.get(field, "correct the file")
+    return CURES.get(field, "correct the file")
 
 
 def _new_imports(text: bytes) -> str:

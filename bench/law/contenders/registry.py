@@ -61,8 +61,8 @@ def baselines_of_arms() -> dict[str, Contender]:
     """Word -> the controllers of arms that laws are compared with; an orientation alone they do not regulate."""
     found = {}
     for name, baseline in contenders("baselines").items():
-        by, through = baseline.through or (None, None)
-        found[name] = Contender(baseline.law, None, by, through, baseline)
+        by, solver = baseline.resolution or (None, None)
+        found[name] = Contender(baseline.law, None, by, solver, baseline)
     return found
 
 
@@ -92,14 +92,18 @@ PAPERS_LAWS = ("rotation-matrix", "linearized-euler", "feedback-linearized")
 @functools.cache
 def papers_laws() -> tuple[Contender, ...]:
     """Return the paper's three laws in its order and coordinates."""
-    found = [one for one in all_contenders() if one.regulator.name in PAPERS_LAWS and not one.is_elsewhere]
+    found = [
+        one
+        for one in all_contenders()
+        if one.regulator.name in PAPERS_LAWS and not one.uses_nonpaper_coordinates
+    ]
     return tuple(sorted(found, key=lambda one: PAPERS_LAWS.index(one.regulator.name)))
 
 
 @functools.cache
 def papers_coordinates() -> Coordinates:
     """Return the paper's own coordinates."""
-    return next(one for one in contenders("representations").values() if one.papers)
+    return next(one for one in contenders("representations").values() if one.is_in_paper)
 
 
 def regulator_in(file: Path) -> Law | None:
@@ -144,7 +148,7 @@ def find_contender(word: str, extra: tuple[Law, ...] = ()) -> Contender:
 
 
 def _by_way(one: Contender, way: str) -> Contender:
-    if not way or (one.baseline is not None and one.baseline.through):
+    if not way or (one.baseline is not None and one.baseline.resolution):
         return one
-    by, _, through = way.partition("+")
-    return one._replace(jacobian=jacobian(by), inverse=inverse(through))
+    by, _, solver = way.partition("+")
+    return one._replace(jacobian=jacobian(by), inverse=inverse(solver))

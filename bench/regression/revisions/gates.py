@@ -9,7 +9,7 @@ import pandas as pd
 
 from bench.base.errors import BadLaw, BadResults
 from bench.experiments.tables.run import Run
-from bench.findings.judged import judged
+from bench.findings.judge_law import judge_laws
 from bench.findings.judgement import Judgement
 from bench.law.contenders.described_law import described
 from bench.regression.revisions import commits, exact
@@ -29,56 +29,67 @@ MEDIANS = {
 STIFFNESS = "stiffness near the goal [kp]"
 
 
-class Means(NamedTuple):
+class GateFunctions(NamedTuple):
     """The functions that run, time and judge a side, so that tests can give others; rounds: 0 leaves time out."""
 
     run_side: Callable = commits.run_side
     compare_times: Callable = compare_times
-    judge: Callable[..., list[Judgement]] = judged
+    judge: Callable[..., list[Judgement]] = judge_laws
     rounds: int = ROUNDS
 
 
 def compare_folders(base: Path, head: Path) -> Comparison:
     """Compare two folders of finished runs row by row; nothing is run."""
-    said = Comparison(str(base), str(head))
-    said.add(ROWS, exact.compare_runs(base, head))
-    return said
+    comparison = Comparison(str(base), str(head))
+    comparison.add(ROWS, exact.compare_runs(base, head))
+    return comparison
 
 
 def compare_revisions(
-    base: str, head: str | None, laws: tuple[Path, ...] = (), report: Callable = lambda *_: None, *, means: Means
+    base: str,
+    head: str | None,
+    laws: tuple[Path, ...] = (),
+    report: Callable = lambda *_: None,
+    *,
+    functions: GateFunctions,
 ) -> Comparison:
     """Compare two revisions, or a revision and the files in the checkout (head None), through every gate."""
     with commits.check_out_both(base, head, laws) as (old, new):
         if new.is_new:
             raise BadResults(f"{new.name}: none of the --law files is there")
-        said = Comparison(old.name, new.name)
-        _compare_rows(said, old, new, report, means)
+        comparison = Comparison(old.name, new.name)
+        _compare_rows(comparison, old, new, report, functions)
         if new.only:
             report("judging")
-            _compare_faults(said, old, new, means.judge)
-        _compare_times(said, old, new, report, means)
-    said.findings.sort(key=lambda one: one.verdict != REGRESSION)
-    return said
+            _compare_faults(comparison, old, new, functions.judge)
+        _compare_times(comparison, old, new, report, functions)
+    comparison.findings.sort(key=lambda one: one.verdict != REGRESSION)
+    return comparison
 
 
-def _compare_rows(said: Comparison, old: Side, new: Side, report: Callable, means: Means) -> None:
+def _compare_rows(
+    comparison: Comparison, old: Side, new: Side, report: Callable, functions: GateFunctions
+) -> None:
     """Compare outcomes and operations, and measure a user's laws too."""
     if old.is_new:
-        return said.skip(ROWS, "base has no such law, or it does not load: there is nothing to compare with")
+        return comparison.skip(
+            ROWS, "base has no such law, or it does not load: there is nothing to compare with"
+        )
     if old.digest == new.digest and not new.only:
         same = "both sides have the same sources and versions, so a run would be the same"
-        return said.skip(ROWS, same, "passed")
-    with means.run_side(old, report) as before, means.run_side(new, report) as after:
+        return comparison.skip(ROWS, same, "passed")
+    with functions.run_side(old, report) as before, functions.run_side(new, report) as after:
         try:
             found = exact.compare_runs(before, after)
-            said.measures = compare_measures(before, after) if new.only else []
+            comparison.measures = compare_measures(before, after) if new.only else []
         except BadResults as error:  # each program has just written its own run, so the schema differs
             found = [Finding(EXACT, REGRESSION, "", f"the schema differs: {error}")]
-    return said.add(ROWS, found)
+    return comparison.add(ROWS, found)
 
 
-def _compare_faults(said: Comparison, old: Side, new: Side, judge: Callable[..., list[Judgement]]) -> None:
+def _compare_faults(
+    comparison: Comparison, old: Side, new: Side, judge: Callable[..., list[Judgement]]
+) -> None:
     """Judge a user's laws on both sides by this program: a fault that base has not is a regression."""
     judgements: list[list[Judgement]] = [[], []]
     for at, side in enumerate((old, new)):
@@ -86,8 +97,8 @@ def _compare_faults(said: Comparison, old: Side, new: Side, judge: Callable[...,
             judgements[at] = judge([described(law) for law in side.laws]) if side.laws else []
         except BadLaw as error:
             if side is new:
-                return said.fail(FAULTS, str(error))
-    said.judgements = judgements[1]
+                return comparison.fail(FAULTS, str(error))
+    comparison.judgements = judgements[1]
     before, now = ({one.name: one.faults + ["lost"] * one.is_lost for one in each} for each in judgements)
     found, kept = [], []
     for name, faults in now.items():
@@ -96,28 +107,31 @@ def _compare_faults(said: Comparison, old: Side, new: Side, judge: Callable[...,
         new_ones, mended = [each for each in faults if each not in was], [each for each in was if each not in faults]
         found += [Finding(FAULTS, REGRESSION, name, f"{name}: new fault: {each}") for each in new_ones]
         found += [Finding(FAULTS, IMPROVEMENT, name, f"{name}: no more: {each}") for each in mended]
-    return said.add([FAULTS], found, f"as in base: {', '.join(kept) or 'no fault'}")
+    return comparison.add([FAULTS], found, f"as in base: {', '.join(kept) or 'no fault'}")
 
 
-def _compare_times(said: Comparison, old: Side, new: Side, report: Callable, means: Means) -> None:
+def _compare_times(
+    comparison: Comparison, old: Side, new: Side, report: Callable, functions: GateFunctions
+) -> None:
     """Time both sides in turns; equal sources only if somebody compares a commit with itself."""
-    if not means.rounds:
-        return said.skip([TIME], "left out on request")
+    if not functions.rounds:
+        return comparison.skip([TIME], "left out on request")
     if old.is_new:
-        return said.skip([TIME], "there is no base")
+        return comparison.skip([TIME], "there is no base")
     has_same_sources = old.digest == new.digest and not new.only
     if has_same_sources and old.name != new.name:
-        return said.skip([TIME], "the same sources")
+        return comparison.skip([TIME], "the same sources")
     try:
-        said.files, times = means.compare_times(old, new, report, means.rounds)
+        comparison.files, times = functions.compare_times(old, new, report, functions.rounds)
     except SideFailed as error:
         if error.at == 0:
-            return said.skip([TIME], f"base is too old for it: {error}")
+            return comparison.skip([TIME], f"base is too old for it: {error}")
         if not new.only:
             raise
-        return said.fail(TIME, f"the law cannot be timed: {error}")
-    said.times = list(times.values())
-    return said.add([TIME], [describe_time(one) for one in said.times if one.verdict != SAME], f"{len(times)} timed")
+        return comparison.fail(TIME, f"the law cannot be timed: {error}")
+    comparison.times = list(times.values())
+    differences = [describe_time(timed) for timed in comparison.times if timed.verdict != SAME]
+    return comparison.add([TIME], differences, f"{len(times)} timed")
 
 
 def describe_time(one: Timed) -> Finding:

@@ -112,7 +112,7 @@ def write_markdown(comparison: Comparison) -> str:
 def _write_judgement(one: Judgement) -> list[str]:
     """Return why a law does what it does, faults first, and the laws nearest to it."""
     lines = [f"**{escape(one.heading or one.name)}: {', '.join(one.faults) or 'no fault found'}**", ""]
-    for each in sorted(one.said, key=lambda each: not each.fault):
+    for each in sorted(one.sentences, key=lambda each: not each.fault):
         lines.append(f"- {escape(each.text)} ({find_reading(each.subject)})")
     if one.beside:
         lines += ["", "The laws nearest to it in pull at 90 degrees and median settling time:", ""]

@@ -26,7 +26,7 @@ class Difference(NamedTuple):
     now: str = ""
 
 
-class Rule(NamedTuple):
+class ComparisonRule(NamedTuple):
     """How cells are compared: numbers by a tolerance (column -> relative, absolute) in some rows, words exactly.
 
     exact: columns that are compared first, exactly, each in some rows.
@@ -82,7 +82,9 @@ def _read_keys(frame: pd.DataFrame, key: Sequence[str]) -> list[dict[str, str]]:
     return pd.DataFrame(words, dtype=str).to_dict("records")
 
 
-def compare_cells(table: Table, old: pd.DataFrame, new: pd.DataFrame, rule: Rule) -> list[Difference]:
+def compare_cells(
+    table: Table, old: pd.DataFrame, new: pd.DataFrame, rule: ComparisonRule
+) -> list[Difference]:
     """Return the cells that differ between two aligned tables."""
     found = []
     for name, rows in rule.exact.items():

@@ -8,7 +8,7 @@ import pandas as pd
 from bench.experiments.columns import Table
 from bench.law.contenders.registry import contenders
 from bench.law.contenders.representations.zyx_euler import to_matrix
-from bench.regression.rows.difference import Difference, Rule, align_rows, compare_cells
+from bench.regression.rows.difference import ComparisonRule, Difference, align_rows, compare_cells
 from tasks.contact_rest import REST
 from tasks.verdict import OUTCOMES, SETTLED
 
@@ -70,7 +70,7 @@ def share_outcome(old: pd.DataFrame, new: pd.DataFrame) -> np.ndarray:
     return np.any([*same, np.fmax(old["rounding_change"], new["rounding_change"]).to_numpy() >= 0.5], axis=0)
 
 
-def compare_episodes(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
+def compare_episodes(old: pd.DataFrame, new: pd.DataFrame) -> ComparisonRule:
     """Compare outcomes, each beside its start too where rounding decides it, and numbers of what settled.
 
     The cause of a failure follows from two numbers of a failed episode, which are not compared either.
@@ -91,16 +91,16 @@ def compare_episodes(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
 
     rows = end_as(OUTCOMES[SETTLED], old, new) & (loose < 1.0)
     skipped = ("cause", "outcome_beside", "rounding_change")
-    return Rule(tolerance, rows, {"outcome": ~share_outcome(old, new)}, skipped)
+    return ComparisonRule(tolerance, rows, {"outcome": ~share_outcome(old, new)}, skipped)
 
 
-def compare_robustness(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
+def compare_robustness(old: pd.DataFrame, new: pd.DataFrame) -> ComparisonRule:
     """Compare outcomes exactly, and numbers of what settled in both."""
     both = end_as(OUTCOMES[SETTLED], old, new)
-    return Rule(within(PERTURBED_RELATIVE), both, {"outcome": np.ones(len(old), bool)})
+    return ComparisonRule(within(PERTURBED_RELATIVE), both, {"outcome": np.ones(len(old), bool)})
 
 
-def compare_contact(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
+def compare_contact(old: pd.DataFrame, new: pd.DataFrame) -> ComparisonRule:
     """Compare outcomes where no rounding decides them, and numbers of what is done in both."""
     torque = np.fmin(new["peak_torque_ratio"].to_numpy(), old["peak_torque_ratio"].to_numpy())
     decided = ~_is_on_singular_set(old) & ~(torque > THROWN)
@@ -115,7 +115,7 @@ def compare_contact(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
             return np.where(is_peg, at_end[0], relative), np.where(is_peg, at_end[1], absolute)
         return ENDS.get(column, (relative, absolute))
 
-    return Rule(tolerance, both, {"outcome": decided, "rest": both})
+    return ComparisonRule(tolerance, both, {"outcome": decided, "rest": both})
 
 
 def _is_on_singular_set(rows: pd.DataFrame) -> np.ndarray:
@@ -125,20 +125,30 @@ def _is_on_singular_set(rows: pd.DataFrame) -> np.ndarray:
     return np.array([bool(name) and margins[name](to_matrix(E)) < ON_SET for name, *E in goals], bool)
 
 
-def compare_poses(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
+def compare_poses(old: pd.DataFrame, new: pd.DataFrame) -> ComparisonRule:
     """Compare Jacobians that are not nearly singular; columns of gaps are rounding itself."""
     steady = ((old["condition_analytic"] < STEADY) & (old["condition"] < STEADY)).to_numpy()
-    return Rule(within(POSE_RELATIVE), steady, {}, tuple(name for name in old.columns if name.endswith("_gap")))
+    return ComparisonRule(
+        within(POSE_RELATIVE),
+        steady,
+        {},
+        tuple(name for name in old.columns if name.endswith("_gap")),
+    )
 
 
-def compare_command_field(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
+def compare_command_field(old: pd.DataFrame, new: pd.DataFrame) -> ComparisonRule:
     """Compare every finding's word, and its numbers where they are bounded; not the state, which is one of many."""
     kept = ("what", "value", "least", "most")
     is_bounded = (old["what"] != "unbounded").to_numpy()
-    return Rule(within(POSE_RELATIVE), is_bounded, {}, tuple(name for name in old.columns if name not in kept))
+    return ComparisonRule(
+        within(POSE_RELATIVE),
+        is_bounded,
+        {},
+        tuple(name for name in old.columns if name not in kept),
+    )
 
 
-def compare_probes(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
+def compare_probes(old: pd.DataFrame, new: pd.DataFrame) -> ComparisonRule:
     """Compare outcomes and numbers of probes where rounding does not decide them, and of what settled in both.
 
     A spin or an arm beside a pole ends as rounding decides. A gap is rounding itself, a search takes as many steps as
@@ -153,21 +163,23 @@ def compare_probes(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
     is_searched = probe == "error-search"
     relative = np.select([is_perturbed, is_searched], [PERTURBED_RELATIVE, SEARCH_RELATIVE], RELATIVE)
     absolute = np.where(measure == "settling_time_s", HALF_TICK_S, ABSOLUTE)
-    return Rule(lambda column: (relative, absolute), rows, {"outcome": is_decided})
+    return ComparisonRule(lambda column: (relative, absolute), rows, {"outcome": is_decided})
 
 
-RULES: dict[str, Callable[[pd.DataFrame, pd.DataFrame], Rule]] = {
+RULES: dict[str, Callable[[pd.DataFrame, pd.DataFrame], ComparisonRule]] = {
     "episodes": compare_episodes,
     "velocity": compare_episodes,
     "robustness": compare_robustness,
     "compliance": compare_contact,
     "poses": compare_poses,
     "command-field": compare_command_field,
-    "costs": lambda old, new: Rule(within(0.0, 0.0)),
-    "boundaries": lambda old, new: Rule(within(0.0, BOUNDARY_ANGLE), skipped=("outcome",)),
+    "costs": lambda old, new: ComparisonRule(within(0.0, 0.0)),
+    "boundaries": lambda old, new: ComparisonRule(
+        within(0.0, BOUNDARY_ANGLE), skipped=("outcome",)
+    ),
     "probes": compare_probes,
-    "velocity-limits": lambda old, new: Rule(within(LIMIT_RELATIVE, LIMIT_RELATIVE)),
-    "traces": lambda old, new: Rule(within(RELATIVE, RELATIVE), skipped=("outcome",)),
+    "velocity-limits": lambda old, new: ComparisonRule(within(LIMIT_RELATIVE, LIMIT_RELATIVE)),
+    "traces": lambda old, new: ComparisonRule(within(RELATIVE, RELATIVE), skipped=("outcome",)),
 }
 
 
@@ -176,5 +188,5 @@ def compare_tables(table: Table, old: pd.DataFrame, new: pd.DataFrame) -> list[D
     if table.name == "traces":  # curves that came to the goal; on the others rounding may decide when they end
         old, new = (frame[end_as(OUTCOMES[SETTLED], frame)] for frame in (old, new))
     old, new, found = align_rows(table, old, new)
-    rule = RULES[table.name](old, new) if table.name in RULES else Rule(within(RELATIVE))
+    rule = RULES[table.name](old, new) if table.name in RULES else ComparisonRule(within(RELATIVE))
     return found + compare_cells(table, old, new, rule)

@@ -20,7 +20,7 @@ from matplotlib.path import Path as Outline
 from scipy.spatial import Voronoi
 
 from bench.experiments.tables.run import Run
-from bench.findings.selection.regions import Verdict, decide_all, read_map
+from bench.findings.selection.regions import RuleVerdict, decide_all, read_map
 from bench.findings.selection.sensitivity import RULES
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, Picture, responsive_picture
@@ -43,7 +43,7 @@ LETTER_APART, LETTER_CLEAR, LETTER_INSIDE = 0.6, 0.1, 0.035
 """In units of the plane: between two letters of a law, between any two, and from a letter to the edge."""
 
 
-class Point(NamedTuple):
+class MapPoint(NamedTuple):
     """A simulated situation of a plane: its place, and the law advised there; None where no law qualifies."""
 
     x: float
@@ -51,7 +51,7 @@ class Point(NamedTuple):
     law: str | None
 
 
-class Map(NamedTuple):
+class MapFigure(NamedTuple):
     """The map as a part of a page, in place of a picture: it has alternative text, and is drawn for a phone too."""
 
     picture: Picture
@@ -84,12 +84,12 @@ def facts(_: Run) -> dict[str, Any]:
     choices = _select("plane", "Vertical axis", options) + _select("rule", "Rule", SHOWN)
     points = list_points(FIRST_PLANE, FIRST_RULE)
     return {
-        "map": Map(draw_plane(points, letters_of(advised_laws())), choices, write_data()),
+        "map": MapFigure(draw_plane(points, letters_of(advised_laws())), choices, write_data()),
         "finding": say_finding(points),
     }
 
 
-def say_finding(points: Sequence[Point]) -> str:
+def say_finding(points: Sequence[MapPoint]) -> str:
     """Return which laws the situations of a plane are advised, the most frequent first."""
     counts = Counter(point.law for point in points if point.law)
     unanswered = len(points) - counts.total()
@@ -103,7 +103,7 @@ def say_finding(points: Sequence[Point]) -> str:
     )
 
 
-def decide_shown(rule: str) -> dict[Situation, Verdict]:
+def decide_shown(rule: str) -> dict[Situation, RuleVerdict]:
     """Return the verdict of a rule of SHOWN on every situation of the map."""
     return decide_all(rule=RULES[rule])
 
@@ -119,10 +119,10 @@ def list_situations(name: str) -> list[Situation]:
     return [at for at in decide_shown(FIRST_RULE) if at._replace(**nominal) == NOMINAL]
 
 
-def list_points(name: str, rule: str) -> list[Point]:
+def list_points(name: str, rule: str) -> list[MapPoint]:
     """Return the situations of a plane with what a rule advises there."""
     verdicts = decide_shown(rule)
-    return [Point(*place_of(at, name), verdicts[at].law) for at in list_situations(name)]
+    return [MapPoint(*place_of(at, name), verdicts[at].law) for at in list_situations(name)]
 
 
 def place_of(at: Situation, name: str) -> tuple[float, float]:
@@ -158,7 +158,7 @@ class Cells(NamedTuple):
     borders: list[np.ndarray]
 
 
-def find_cells(points: Sequence[Point], weights: tuple[float, float], top: float) -> Cells:
+def find_cells(points: Sequence[MapPoint], weights: tuple[float, float], top: float) -> Cells:
     """Return the cells of a plane."""
     places = np.array([(point.x, point.y) for point in points]) * weights
     right, up = np.array((1.0, top)) * weights
@@ -176,7 +176,7 @@ def find_cells(points: Sequence[Point], weights: tuple[float, float], top: float
     return Cells([corners[region] for region in regions], borders)
 
 
-def place_letters(points: Sequence[Point], top: float) -> list[tuple[str, float, float]]:
+def place_letters(points: Sequence[MapPoint], top: float) -> list[tuple[str, float, float]]:
     """Return (law, x, y) of letters: at the point of a law that is farthest from other laws, and again far from it."""
     # Each law has one letter before any has two, so that no second letter is in the way of a first one.
     firsts, more = [], []
@@ -186,7 +186,7 @@ def place_letters(points: Sequence[Point], top: float) -> list[tuple[str, float,
         own.sort(key=lambda point: -min((_distance(point, other) for other in others), default=0.0))
         firsts.append(own[0])
         more.extend(own[1:])
-    letters: list[Point] = firsts
+    letters: list[MapPoint] = firsts
     for point in more:
         gaps = ((LETTER_APART if other.law == point.law else LETTER_CLEAR, other) for other in letters)
         if all(_distance(point, other) > gap for gap, other in gaps):
@@ -199,12 +199,12 @@ def place_letters(points: Sequence[Point], top: float) -> list[tuple[str, float,
     return inside
 
 
-def _distance(one: Point, other: Point) -> float:
+def _distance(one: MapPoint, other: MapPoint) -> float:
     return math.hypot(one.x - other.x, one.y - other.y)
 
 
 @responsive_picture
-def draw_plane(points: Sequence[Point], letters: dict[str, str], narrow: bool) -> Drawing:
+def draw_plane(points: Sequence[MapPoint], letters: dict[str, str], narrow: bool) -> Drawing:
     """Draw the first plane: cells in the colours of their laws, letters in them, and a key below."""
     name, top = FIRST_PLANE, top_of(FIRST_PLANE)
     figure, axes = style.panels(height=4.6 if narrow else 4.9, narrow=narrow)

@@ -14,7 +14,9 @@ from bench.findings.amounts import join_words
 from report.figures.kit import html
 from report.figures.kit.spelling import power
 
-FAULTS = html.Table("Fault | Description | Effect on the controller | Cure | Law without the fault")
+FAULTS = html.PageTable(
+    "Fault | Description | Effect on the controller | Cure | Law without the fault"
+)
 
 
 def facts(_: Run) -> dict[str, Any]:

@@ -22,7 +22,7 @@ RINGING_ZETA = LOG_RATIO / math.hypot(math.pi, LOG_RATIO)
 """Damping ratio below which the step response from 180° overshoots by LITTLE_DEG or more:
 exp(-pi zeta/sqrt(1 - zeta^2)) is its overshoot as a share."""
 
-TABLE = html.Table(
+TABLE = html.PageTable(
     "Bound on the command, divided by kp [rad] | Situations | Situations where a law is advised | "
     f"Share of these with a settling time of at most {NEAR_LEAST:g} times the least time [%]:.0f | "
     f"Share of these with an overshoot below {LITTLE_DEG:g}° [%]:.0f | "

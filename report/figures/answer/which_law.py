@@ -34,19 +34,19 @@ from report.figures.replication.conclusions import call_laws
 from report.subjects import find_page
 from tasks.situation import KP, NOMINAL
 
-REGIONS = html.Table(
+REGIONS = html.PageTable(
     "Law | Situations where this law is advised [%]:.0f | "
     "Situations where this law is unbeaten among the qualified laws [%]:.0f | "
     "Situations where this law is unbeaten among all laws [%]:.0f | "
     "Situations where this law does not settle from every start [%]:.0f | "
     "Values of one changed number at which no qualified law is faster than this law"
 )
-RULES = html.Table(
+RULES = html.PageTable(
     "Rule | Law advised most often | Situations where this law is advised [%]:.0f | "
     "Situations where this law is unbeaten [%]:.0f | "
     "Situations where this rule and our rule advise different laws [%]:.0f"
 )
-RELIABLE = html.Table(
+RELIABLE = html.PageTable(
     "Advice in new situations | Situations where the advised law is unbeaten among the qualified "
     "laws | Situations where the advised law is unbeaten among all laws | Situations where a "
     f"qualified law is more than {100 * SPOKEN:.0f} % faster than the advised law | Median extra "
@@ -74,7 +74,9 @@ NOMINAL_IN_WORDS = (
 )
 """What `tasks.situation.NOMINAL` is."""
 
-NEEDS = html.Table("Your controller | Advised law | Why we advise this law | Price of this law | All laws compared")
+NEEDS = html.PageTable(
+    "Your controller | Advised law | Why we advise this law | Price of this law | All laws compared"
+)
 LEAST = 0.01
 """The share of situations from which on a law has a row of its own."""
 

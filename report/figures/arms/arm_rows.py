@@ -92,7 +92,7 @@ def title(controller: str) -> str:
         return f"(3.7) {where}"
     one = contenders("regulators").get(regulator)
     name = one.title.partition(" (")[0] if one else regulator
-    if one and one.later:
+    if one and one.is_beyond_the_paper:
         word = families.word(law)
         name = word[:1].upper() + word[1:]
     function = one.law if one else None

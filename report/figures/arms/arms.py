@@ -25,11 +25,11 @@ HOMES = (
     "Renders of the four arms side by side, each in its home pose: Kinova Jaco, Franka Emika "
     "Panda, Unimation PUMA 560, Universal Robots UR5e. Axes mark the base and the tool."
 )
-RANKED = html.Table(
+RANKED = html.PageTable(
     "Law | Turns that settle [%] | Turns that settle and touch no limit [%] | Moves that settle "
     "[%] | Moves that settle and touch no limit [%]"
 )
-LIMITED = html.Table(
+LIMITED = html.PageTable(
     "Arm | Motors | Stiffness Kp [1/s²] | Turns that settle [%] | Turns in which a motor reaches "
     "its rated torque [%] | Turns stopped by a joint's end [%] | Turns that fail for another "
     "reason [%]"

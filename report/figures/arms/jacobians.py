@@ -29,7 +29,7 @@ BAD = 100.0
 """Condition number (metres, radians) from which on a Jacobian is called bad: twice what the claims allow."""
 HAMMERED = 10.0
 """Peak torque over that of the law on R from the same start, as in claim C20: beyond it something hammers the arm."""
-POLE = html.Table(
+POLE = html.PageTable(
     "Arm | Moves | Moves that settle with the geometric Jacobian | Peak torque / rated torque, "
     "geometric Jacobian | Moves that settle with the Euler Jacobian | Peak torque / rated torque, "
     "Euler Jacobian"

@@ -15,17 +15,17 @@ from report.figures.arms import arm_rows
 from report.figures.kit import families, html, style
 from report.figures.kit.inline import Drawing, responsive_picture
 
-LOOPS = html.Table(
+LOOPS = html.PageTable(
     "Arm | Law | Substeps in a period | Episodes | Episodes that settle in real time "
     "| Episodes that settle in simulation | Episodes with the same outcome in real time and in simulation "
     "| Median delay [µs] | 99th percentile of the delay [µs] | Longest delay [µs]"
 )
-GAINS = html.Table(
+GAINS = html.PageTable(
     "Arm | Law | Substeps in a period | Largest Kv in real time [1/s] "
     "| Largest Kv predicted from measured delays [1/s] | Largest Kv with replayed delays [1/s] "
     "| Largest Kv predicted from replayed delays [1/s]"
 )
-PARTS = html.Table("Part of the delay | Median [µs] | 99th percentile [µs] | Longest [µs]")
+PARTS = html.PageTable("Part of the delay | Median [µs] | 99th percentile [µs] | Longest [µs]")
 PART_NAMES = {
     "published": "From the start of the control period until the arm's process has written the state",
     "read": "From the writing of the state until the controller's process has read this state",

@@ -12,7 +12,7 @@ from bench.law.contenders.registry import contenders
 from report.figures.arms import arm_rows
 from report.figures.kit import html
 
-RULES = html.Table(
+RULES = html.PageTable(
     "Rule for Λ | Arms | Episodes that settle with unlimited torque [%]:.0f | Largest unlimited torque, "
     "divided by the rated torque | Episodes that settle with limited torque [%]:.0f | Largest error of the "
     "tool's position with limited torque [mm]:.0f"

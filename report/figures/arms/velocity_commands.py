@@ -7,7 +7,7 @@ import pandas as pd
 from bench.experiments.tables.run import Run
 from bench.findings.amounts import capitalize, join_words
 from bench.findings.claims.adequacy import DETOUR
-from bench.findings.selection.regions import Verdict
+from bench.findings.selection.regions import RuleVerdict
 from bench.findings.selection.robots import VELOCITY, decide_for
 from bench.findings.selection.words import standing, together
 from bench.findings.theory.velocity_limits import with_theory
@@ -49,7 +49,7 @@ def named(laws: Iterable[str]) -> str:
     return join_words(names) if names else "no law"
 
 
-def lead(one: Verdict | None) -> str:
+def lead(one: RuleVerdict | None) -> str:
     """Return what is advised, and with whom it ties."""
     if one is None or one.law is None:
         return "No law of this run settles from every start when it commands velocities."

@@ -76,14 +76,16 @@ class LawPage(NamedTuple):
     files: dict[str, str]
 
 
-class Source(NamedTuple):
+class SourceFile(NamedTuple):
     """A contender's file on this machine, and its path as a reader sees it."""
 
     file: Path
     where: str
 
 
-def make_page(name: str, title: str, card: str, source: Source, word: str = "", live: str = "") -> LawPage:
+def make_page(
+    name: str, title: str, card: str, source: SourceFile, word: str = "", live: str = ""
+) -> LawPage:
     """Return the page of a law; word: by which it is exported, or empty; live: the page on which it runs."""
     subject = find_subject(word) if word else None
     languages = map(find_language, language_words() if word else ())
@@ -91,7 +93,7 @@ def make_page(name: str, title: str, card: str, source: Source, word: str = "", 
     files = {title: (Path(path).name, text) for title, (path, text) in laws.items()}
     take = take_files(word, files, live) if files else ""
     code = show_short(word) or show_code(source)
-    body = f"<section>{BACK}<h1>{html.foreign(title)}</h1>{card}{take}{code}{fold(source)}</section>"
+    body = f"<section>{BACK}<h1>{html.escape_untrusted(title)}</h1>{card}{take}{code}{fold(source)}</section>"
     return LawPage(name, title, body, dict(files.values()))
 
 
@@ -108,10 +110,14 @@ def make_card(
     attribution: whose the law is, where that is not the record's own word (in coordinates that its work has not).
     """
     formula = f'<div class="card-formula">{html.formula(record.formula)}</div>' if record.formula else ""
-    source = html.foreign(describe_source(attribution or record.attribution, record.source))
+    source = html.escape_untrusted(
+        describe_source(attribution or record.attribution, record.source)
+    )
     lines = [set_paragraph(text) for text in said[0].split("\n\n") if text.strip()]
     for head, text in said[1].items():
-        set_text = text if isinstance(text, html.Html) else html.foreign(text)  # only ours is markup
+        set_text = (
+            text if isinstance(text, html.Html) else html.escape_untrusted(text)
+        )  # only ours is markup
         lines += [f'<p class="card-fact"><b>{head}.</b> {set_text}</p>'] if text else []
     return (
         f'<section class="law-card" style="--law: {look}"'
@@ -131,7 +137,7 @@ def say_property(law: Law, exception: str = "") -> dict[str, str]:
     if not certificate or not certificate["is_proved"] or certificate["declared"] != law.property:
         head = "Stability" if law.property == "none" else "Measured, not proved"
         # a word that is not ours shows its backticks and stars as they are
-        words = set_words(text) if law.property in PROPERTIES else html.foreign(text)
+        words = set_words(text) if law.property in PROPERTIES else html.escape_untrusted(text)
         return {head: html.Html(f"{words} {set_words(exception)}".strip())}
     lemmas = [lemma for lemma in certificate["lemmas"] if lemma["by"] != DRAWN]
     by = " and ".join(METHODS.get(by, by) for by in sorted({lemma["by"] for lemma in lemmas}))
@@ -186,7 +192,7 @@ def show_short(word: str) -> str:
     return f"<h2>The law in NumPy</h2><p>{others}</p>{colour(code)}" if code else ""
 
 
-def show_code(source: Source) -> str:
+def show_code(source: SourceFile) -> str:
     """Return the function that is the law, without its docstring; nothing of a file that has none or is no Python."""
     text = source.file.read_text(encoding="utf-8", errors="replace")
     try:
@@ -208,7 +214,7 @@ def colour(code: str) -> str:
     return f'<div class="highlight"><pre tabindex="0">{coloured}</pre></div>'
 
 
-def fold(source: Source) -> str:
+def fold(source: SourceFile) -> str:
     """Return a file's text behind its name."""
     text = source.file.read_text(encoding="utf-8", errors="replace")
     return (

@@ -8,11 +8,18 @@ import pandas as pd
 
 from bench.experiments.tables.run import Run
 from bench.findings.amounts import capitalize, join_words
-from bench.findings.constants import CONSTANTS, Constant, Varied, default_times, read_rows, vary
+from bench.findings.constants import (
+    CONSTANTS,
+    Constant,
+    VariedConstant,
+    default_times,
+    read_rows,
+    vary,
+)
 from bench.findings.selection.regions import find_default
 from report.figures.kit import families, html
 
-TABLE = html.Table(
+TABLE = html.PageTable(
     "Law | Constant | Value used | Other values tried "
     "| Settling time with the value used, divided by the settling time of the default law:.2f "
     "| Settling time with the other values, divided by the settling time of the default law "
@@ -37,7 +44,7 @@ def facts(_: Run) -> dict[str, Any]:
     }
 
 
-def make_rows(varied: dict[Constant, list[Varied]]) -> Iterator[tuple]:
+def make_rows(varied: dict[Constant, list[VariedConstant]]) -> Iterator[tuple]:
     """Return a row a constant."""
     for constant, every in varied.items():
         [shipped] = [one for one in every if one.value == constant.shipped]
@@ -66,7 +73,9 @@ def count_usable(rows: pd.DataFrame, default: str) -> int:
     return int(default_times(rows, default).map(math.isfinite).sum())
 
 
-def say(constant: Constant, every: list[Varied], default: str, laws: int, usable: int) -> str:
+def say(
+    constant: Constant, every: list[VariedConstant], default: str, laws: int, usable: int
+) -> str:
     """Say what the values of a constant do to the time of a law, and to its rank among so many laws.
 
     usable: the number of situations of which a ratio is the median.

@@ -26,7 +26,7 @@ from bench.law.contenders.registry import contenders, contenders_of, papers_laws
 from bench.law.kinds import Law
 from report.figures.cards.card import (
     LawPage,
-    Source,
+    SourceFile,
     docstring,
     make_card,
     make_page,
@@ -41,7 +41,7 @@ UNTRUSTED = (
     "page has its results only. If you have read the file, `bench trust FILE` lets it run, and "
     "this page then describes the law."
 )
-LAWS = html.Table(
+LAWS = html.PageTable(
     "Law | Origin | Stability | Uniform starts from which the body settles | Name on the command line",
     {"Uniform starts from which the body settles": lambda share: f"{100 * share:.1f} %"},
 )
@@ -66,20 +66,27 @@ def in_order() -> list[Law]:
     """Return the paper's three regulators, its variants by name, the later ones by name, the user's own of the run."""
     first = [one.regulator for one in papers_laws()]
     others = [one for one in contenders("regulators").values() if one not in first]
-    return [*first, *sorted(others, key=lambda one: (one.later, one.name)), *shown_run().user_laws()]
+    return [*first, *sorted(others, key=lambda one: (one.is_beyond_the_paper, one.name)), *shown_run().user_laws()]
 
 
 def every_law() -> list[Contender]:
     """Return each law in each of its coordinates, the paper's own first; the run's own laws are among them."""
-    return [one for law in in_order() for one in sorted(contenders_of(law), key=lambda one: one.is_elsewhere)]
+    every = []
+    for law in in_order():
+        every += sorted(
+            contenders_of(law), key=lambda contender: contender.uses_nonpaper_coordinates
+        )
+    return every
 
 
-def source(regulator: Law) -> Source:
+def source(regulator: Law) -> SourceFile:
     """Return a law's own file."""
     name = f"{regulator.name.replace('-', '_')}.py"
     if regulator.origin:
-        return Source(Path(regulator.origin), f"laws/{name}")
-    return Source(Path(regulators.__path__[0]) / name, f"bench/law/contenders/regulators/{name}")
+        return SourceFile(Path(regulator.origin), f"laws/{name}")
+    return SourceFile(
+        Path(regulators.__path__[0]) / name, f"bench/law/contenders/regulators/{name}"
+    )
 
 
 def text_of(regulator: Law, coordinates: str = "") -> tuple[str, str]:
@@ -128,7 +135,7 @@ def card(one: Contender, run: Run) -> str:
         "Recommended": set_words(advised(one.name)),
         "Constants that are ours": set_words(describe_constants(one.name)),
     }
-    look, costs = html.both(style.look(one.name).colour), costs_of(one, run)
+    look, costs = html.light_dark_css(style.look(one.name).colour), costs_of(one, run)
     shown = costs.to_html(index=False, classes="plain", border=0, formatters=[html.cell] * len(costs.columns))
     caption = '<p class="card-fact">Operations of one control step, by stage of the computation:</p>'
     costs_table = f'{caption}<div class="card-costs" tabindex="0">{shown}</div>'
@@ -242,7 +249,7 @@ def line(one: Contender, run: Run) -> tuple:
     return (
         families.link(one.name, laws.title_of(one)),
         one.attribution,
-        html.MISSING if law.costing_only else html.together(html.foreign(stability)),
+        html.MISSING if law.costing_only else html.no_break(html.escape_untrusted(stability)),
         (uniform["outcome"] == "settled").mean() if len(uniform) else None,
         f"`{one.name}`",
     )

@@ -7,13 +7,15 @@ from bench.experiments.tables.run import Run
 from bench.findings import claims
 from bench.findings.amounts import join_words
 from bench.findings.claims import Verdict, Word
-from bench.findings.claims.verdict import does
+from bench.findings.claims.verdict import verb_phrase
 from report.figures.claims.places import read_places
 from report.figures.kit import html
 from report.figures.kit.law_names import call_laws
 from report.figures.kit.spelling import prose
 
-VERDICTS = html.Table("Claim | What the paper states, in our words | Verdict | What we measured | Shown in")
+VERDICTS = html.PageTable(
+    "Claim | What the paper states, in our words | Verdict | What we measured | Shown in"
+)
 
 LOOKS = {**html.VERDICTS, Word.DEPENDS: "depends", Word.READING: "reading"}
 """Verdict -> class of its square: no two verdicts look alike."""
@@ -27,7 +29,7 @@ def facts(run: Run) -> dict:
     verdicts = sorted(claims.judge_each(run), key=lambda verdict: verdict.claim.paper_order)
     return {
         "count": len(verdicts),
-        "words": claims.told(verdict.word for verdict in verdicts),
+        "words": claims.format_tally(verdict.word for verdict in verdicts),
         "tiles": html.Html(draw_tiles(verdicts)),
         "verdicts": table(verdicts),
     }
@@ -64,11 +66,12 @@ def draw_tiles(verdicts: list[Verdict]) -> str:
     """Return a square for each claim in the colour and pattern of its verdict, and a key with the counts."""
     counts = Counter(verdict.word for verdict in verdicts)
     present = [word for word in Word if counts[word]]
-    said = join_words(f"{counts[word]} {does(word, counts[word])}" for word in present)
+    tallies = {word: f"{counts[word]} {verb_phrase(word, counts[word])}" for word in present}
+    said = join_words(tallies.values())
     squares = "".join(map(_square, verdicts))
     keys = "".join(
-        f'<li><span class="tile {LOOKS[word]}" aria-hidden="true"></span>{counts[word]} {does(word, counts[word])}</li>'
-        for word in present
+        f'<li><span class="tile {LOOKS[word]}" aria-hidden="true"></span>{tally}</li>'
+        for word, tally in tallies.items()
     )
     name = f"{len(verdicts)} claims in the order of the paper: {said}"
     return f'<ol class="claim-tiles" aria-label="{name}">{squares}</ol><ul class="claim-keys">{keys}</ul>'

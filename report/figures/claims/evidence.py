@@ -16,8 +16,12 @@ from report.figures.kit.law_names import call_laws
 from report.figures.kit.offered import OFFERED_BYTES, SITE_DATA
 from report.figures.kit.spelling import marked_up, prose, typeset
 
-SENTENCES = html.Table("Section of the paper | Sentence of the paper | Why no simulation can decide")
-SLIPS = html.Table("Error | Where in the paper | Printed words | Correction | How we checked this error")
+SENTENCES = html.PageTable(
+    "Section of the paper | Sentence of the paper | Why no simulation can decide"
+)
+SLIPS = html.PageTable(
+    "Error | Where in the paper | Printed words | Correction | How we checked this error"
+)
 
 
 STUDIES = {

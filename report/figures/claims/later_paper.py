@@ -13,7 +13,9 @@ from report.figures.kit import html
 from report.figures.kit.spelling import prose, typeset
 
 PAPER = "lopez-slotine-2024"
-VERDICTS = html.Table("Claim | What the paper states, in our words | Verdict | What we measured")
+VERDICTS = html.PageTable(
+    "Claim | What the paper states, in our words | Verdict | What we measured"
+)
 
 
 def facts(run: Run) -> dict[str, Any]:
@@ -21,7 +23,7 @@ def facts(run: Run) -> dict[str, Any]:
     verdicts = claims.judge_each(run, PAPER)
     return {
         "count": len(verdicts),
-        "words": claims.told(verdict.word for verdict in verdicts),
+        "words": claims.format_tally(verdict.word for verdict in verdicts),
         "kept": f"{KEPT_DEG:.0f}",
         "read": typeset(" ".join(WHAT_WE_READ.split())),
         "verdicts": VERDICTS(map(describe, verdicts)),

@@ -14,7 +14,7 @@ CHAPTER = re.compile(r"(\d\d)-")
 KINDS = {"fig": "figure", "tab": "table"}
 
 
-class Place(NamedTuple):
+class BookPlace(NamedTuple):
     """A figure, a table or a section of a page, or a page.
 
     label: empty of a whole page. page: the file's name without its ending. title: the page's.
@@ -52,15 +52,15 @@ class Place(NamedTuple):
 
 
 @functools.cache
-def read_places() -> dict[str, tuple[Place, ...]]:
+def read_places() -> dict[str, tuple[BookPlace, ...]]:
     """Return the places of each claim that has some; ValueError for a label that no page has."""
     pages = {path.stem: path.read_text(encoding="utf-8") for path in REPORT.glob("pages/*.md")}
     titles = {page: TITLE.search(text)[1] for page, text in pages.items()}  # type: ignore[index]
-    known = {page: Place("", page, title) for page, title in titles.items()}
+    known = {page: BookPlace("", page, title) for page, title in titles.items()}
     for page, text in pages.items():
         for groups in LABEL.findall(text):
             label = "".join(groups)
-            known[label] = Place(label, page, titles[page])
+            known[label] = BookPlace(label, page, titles[page])
     named = tomllib.loads(Path(__file__).with_name("where.toml").read_text(encoding="utf-8"))
     for claim, labels in named.items():
         if unknown := sorted(set(labels) - set(known)):

@@ -20,7 +20,7 @@ from report.figures.kit import families, html
 from report.figures.kit.page import in_run
 from report.figures.kit.spelling import power
 
-ALL_LAWS = html.Table(
+ALL_LAWS = html.PageTable(
     "Law | Starts that settle [%] | Settling time for 50 % of starts [s] | Settling time for 99 % of starts [s] | "
     "Median effort [rad²/s³] | Peak command [rad/s²] | Operations + function calls per control step | "
     "Directed starts from which the body never settles | "
@@ -109,7 +109,7 @@ def list_held(run: Run) -> dict[str, float]:
 def count_lost(rows: pd.DataFrame) -> str:
     """Return "25 of 666" or "none of 372" for the starts that do not settle."""
     lost = int((rows["outcome"] != "settled").sum())
-    return html.together(f"{lost or 'none'} of {len(rows)}")
+    return html.no_break(f"{lost or 'none'} of {len(rows)}")
 
 
 def common(episodes: pd.DataFrame) -> pd.DataFrame:
@@ -160,7 +160,7 @@ def spelled(found: Estimate, write: Callable[[float], str]) -> str:
 
 def with_interval(value: str, low: str, high: str) -> str:
     """Return a number, and its interval, which no line breaks."""
-    return f"{value} {html.together(f'({low} to {high})')}"
+    return f"{value} {html.no_break(f'({low} to {high})')}"
 
 
 def directed_starts(episodes: pd.DataFrame) -> pd.DataFrame:

@@ -13,7 +13,7 @@ from report.figures.kit import families, html, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import in_run
 
-TUNED = html.Table(
+TUNED = html.PageTable(
     "Law | Time in which 99 % of the starts settle, at critical damping [1/√kp]:.2f | "
     "Best damping ratio at equal stiffness:.2f | "
     "Time in which 99 % of the starts settle, at the best damping ratio and equal stiffness [1/√kp]:.2f | "
@@ -25,7 +25,7 @@ LABEL_GAP = 0.034
 TICKS = (1.0, 1.2, 1.5, 2.0, 2.5)
 
 
-class Tuned(NamedTuple):
+class TunedGroup(NamedTuple):
     """Laws that have the same numbers, as the table rounds them; times in 1/√kp, the last one in 1/√peak."""
 
     laws: tuple[str, ...]
@@ -36,13 +36,15 @@ class Tuned(NamedTuple):
     peak_time: float
 
 
-def list_tuned() -> list[Tuned]:
+def list_tuned() -> list[TunedGroup]:
     """Return the laws of the map that settle from every start, the fastest first."""
     groups: dict[tuple[float, ...], list[str]] = {}
     for each in sensitivity.tune():
         numbers = each.at_one, each.zeta, each.time, each.peak_zeta, each.peak_time
         groups.setdefault(tuple(round(float(number), 2) for number in numbers), []).append(each.law)
-    return [Tuned(tuple(sorted(laws, key=_argued)), *numbers) for numbers, laws in groups.items()]
+    return [
+        TunedGroup(tuple(sorted(laws, key=_argued)), *numbers) for numbers, laws in groups.items()
+    ]
 
 
 def _argued(law: str) -> tuple[bool, bool, str]:
@@ -62,7 +64,7 @@ def link(law: str) -> str:
 
 
 @responsive_picture
-def draw_slopes(rows: list[Tuned], narrow: bool) -> Drawing:
+def draw_slopes(rows: list[TunedGroup], narrow: bool) -> Drawing:
     """Draw a line from a law's time at equal stiffness to its time at equal peak command, over the fastest law's."""
     figure, axes = style.panels(height=4.6 if narrow else 4.1, narrow=narrow)
     left, right = (min(getattr(tuned, field) for tuned in rows) for field in ("time", "peak_time"))
@@ -85,7 +87,7 @@ def draw_slopes(rows: list[Tuned], narrow: bool) -> Drawing:
     return figure, f"Time of 99 % of the starts at equal stiffness and at equal peak command: {words}."
 
 
-def label_ends(axes: Axes, ends: dict[Tuned, float]) -> None:
+def label_ends(axes: Axes, ends: dict[TunedGroup, float]) -> None:
     """Name each line at its right end, with its time there; a name that had to move has a line to its end."""
     places = style.apart([math.log10(ratio) for ratio in ends.values()], LABEL_GAP)
     for (tuned, ratio), place in zip(ends.items(), places, strict=True):
@@ -96,7 +98,7 @@ def label_ends(axes: Axes, ends: dict[Tuned, float]) -> None:
         style.label_line(axes, 1.1, 10.0**place, text, colour, fontsize=10)
 
 
-def describe_slopes(rows: list[Tuned]) -> str:
+def describe_slopes(rows: list[TunedGroup]) -> str:
     """Say how the default stands at equal stiffness and at equal peak command, and which law is the fastest there."""
     left, right = (min(rows, key=lambda tuned: getattr(tuned, field)) for field in ("time", "peak_time"))
     [default] = [tuned for tuned in rows if find_default() in tuned.laws]

@@ -36,7 +36,7 @@ RATIO = 1.3
 """Dots closer to each other than this, in time and in command, share one label."""
 
 
-class Law(NamedTuple):
+class LawPeak(NamedTuple):
     """A law's time of 99 % of the starts [s], infinite for never, and its greatest command over kp [rad]."""
 
     law: str
@@ -44,7 +44,7 @@ class Law(NamedTuple):
     peak: float
 
 
-def list_laws(run: Run) -> list[Law]:
+def list_laws(run: Run) -> list[LawPeak]:
     """Return each law that is not wrong on purpose, the fastest first."""
     rows = uniform(run)
     kp, _ = gains(rows)
@@ -54,12 +54,12 @@ def list_laws(run: Run) -> list[Law]:
     for law in times:
         if law not in families.CONTROLS:
             late = quantile_estimate(times[law].to_numpy(), 0.99).value
-            found.append(Law(str(law), float(late), float(peaks[law])))
+            found.append(LawPeak(str(law), float(late), float(peaks[law])))
     return sorted(found, key=lambda each: each.time_s)
 
 
 @responsive_picture
-def draw_laws(found: list[Law], narrow: bool) -> Drawing:
+def draw_laws(found: list[LawPeak], narrow: bool) -> Drawing:
     """Draw one dot a law; those of NAMED have names, the others are grey."""
     figure, axes = style.panels(height=4.6 if narrow else 3.6, narrow=narrow)
     axes.axhspan(2.5, TOP_S, facecolor=style.GRID, alpha=0.45, zorder=0)
@@ -79,20 +79,20 @@ def draw_laws(found: list[Law], narrow: bool) -> Drawing:
     return figure, f"Time in which 99 % of the starts settle, and greatest command over kp, of each law: {words}."
 
 
-def place(each: Law) -> tuple[float, float]:
+def place(each: LawPeak) -> tuple[float, float]:
     """Return where a law's dot stands."""
     return (each.peak if each.peak <= MOST else RAIL), (each.time_s if math.isfinite(each.time_s) else NEVER_S)
 
 
-def describe(each: Law) -> str:
+def describe(each: LawPeak) -> str:
     """Return a law's two numbers in words."""
     time = f"{each.time_s:.2f} s" if math.isfinite(each.time_s) else "never"
     return f"{time} and {each.peak:.2g}" if each.peak <= MOST else f"{time} and no limit"
 
 
-def label_laws(axes: Axes, found: list[Law]) -> None:
+def label_laws(axes: Axes, found: list[LawPeak]) -> None:
     """Name the laws of NAMED beside their dots; laws at one place share a label."""
-    groups: list[list[Law]] = []
+    groups: list[list[LawPeak]] = []
     for each in (each for each in found if each.law in NAMED):
         near = [group for group in groups if is_near(group[0], each)]
         if near:
@@ -107,7 +107,7 @@ def label_laws(axes: Axes, found: list[Law]) -> None:
             axes.annotate(families.word(each.law), place(each), shift, textcoords="offset points", **look)
 
 
-def place_label(group: list[Law], line: int) -> tuple[tuple[float, float], str]:
+def place_label(group: list[LawPeak], line: int) -> tuple[tuple[float, float], str]:
     """Return the offset [pt] of a label of a group from its dot, and its alignment: below, above or beside."""
     x, y = place(group[0])
     if x >= RAIL:
@@ -119,13 +119,13 @@ def place_label(group: list[Law], line: int) -> tuple[tuple[float, float], str]:
     return (7.0, 0.0), "left"
 
 
-def is_near(one: Law, other: Law) -> bool:
+def is_near(one: LawPeak, other: LawPeak) -> bool:
     """Tell whether two dots are so close that their labels would overlap."""
     distances = [abs(math.log(a / b)) for a, b in zip(place(one), place(other), strict=True)]
     return distances[0] < math.log(RATIO) and distances[1] < math.log(RATIO) / 3.0
 
 
-def describe_argument(found: list[Law]) -> str:
+def describe_argument(found: list[LawPeak]) -> str:
     """Say how fast the default, the runner-up of the map and the paper's first law are, and what they command."""
     numbers = {each.law: each for each in found}
     parts = []

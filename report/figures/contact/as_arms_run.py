@@ -19,7 +19,7 @@ from bench.findings.theory.impedance_modes import (
 from bench.law.control.unshaped import DAMPINGS
 from report.figures.kit import html
 
-PANDA = html.Table(
+PANDA = html.PageTable(
     "Controller | Stiffness [N/m; N m/rad] | Longest stable control period, exact simulation [ms] "
     "| Longest stable control period in MuJoCo [ms] | Longest stable delay at 1 kHz, exact simulation [ms] "
     "| Longest stable delay at 1 kHz in MuJoCo [ms]"

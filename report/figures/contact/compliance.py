@@ -54,7 +54,7 @@ FINGERS = [((x, 0.0, -0.30), (0.06, 0.10, 0.24)) for x in (-0.25, 0.25)]
 """Middle and half edges of boxes in the hand's frame, at the middle of the palm."""
 
 
-class Turn(NamedTuple):
+class HandTurn(NamedTuple):
     """What a hand does under equal moments about x, where it should comply, and about z, where it should hold.
 
     Attributes:
@@ -97,14 +97,14 @@ def probed(rows: pd.DataFrame, contender: str) -> pd.DataFrame:
     return found[found["beta_deg"].between(0.0, MOST_DEG) & (found["outcome"] == "done")]
 
 
-def measure(rows: pd.DataFrame, contender: str) -> list[Turn]:
+def measure(rows: pd.DataFrame, contender: str) -> list[HandTurn]:
     """Return what the hand did in each row of the probe."""
     full = float(probed(rows, PAPERS)["c_xx"].median())
     own = probed(rows, contender)
     return [read_turn(C, beta, full) for C, beta in zip(compliances(own), own["beta_deg"], strict=True)]
 
 
-def predict(rows: pd.DataFrame, contender: str) -> list[Turn]:
+def predict(rows: pd.DataFrame, contender: str) -> list[HandTurn]:
     """Return what the closed form says of the hand along CURVE_DEG."""
     first = probed(rows, contender).head(1)
     tilted = pd.concat([first] * len(CURVE_DEG), ignore_index=True).assign(beta=np.radians(CURVE_DEG))
@@ -114,16 +114,16 @@ def predict(rows: pd.DataFrame, contender: str) -> list[Turn]:
     return [read_turn(C, beta, full) for C, beta in zip(compliance, CURVE_DEG, strict=True)]
 
 
-def read_turn(C: np.ndarray, beta_deg: float, full: float) -> Turn:
+def read_turn(C: np.ndarray, beta_deg: float, full: float) -> HandTurn:
     """Return the turn of a compliance matrix; full: the rotation of Cartesian compliance per moment about x."""
     size = float(np.linalg.norm(C[:, 0]))
     # an axis has no sense: of both, that along x is taken
     axis = C[:, 0] * math.copysign(1.0, C[0, 0]) / size
     off_deg = math.degrees(math.acos(min(float(axis[0]), 1.0)))
-    return Turn(float(beta_deg), axis, off_deg, float(np.linalg.norm(C[:, 2])) / full)
+    return HandTurn(float(beta_deg), axis, off_deg, float(np.linalg.norm(C[:, 2])) / full)
 
 
-def nearest(turns: Sequence[Turn], beta_deg: float) -> Turn:
+def nearest(turns: Sequence[HandTurn], beta_deg: float) -> HandTurn:
     """Return the turn whose tilt is the nearest: the grids of suites differ."""
     return min(turns, key=lambda turn: abs(turn.beta_deg - beta_deg))
 
@@ -133,7 +133,7 @@ def unit(axis: str) -> np.ndarray:
     return np.eye(3)["xyz".index(axis)]
 
 
-def beta_of(turn: Turn) -> str:
+def beta_of(turn: HandTurn) -> str:
     """Return the tilt of a turn, on one line: β = 30°."""
     space = "\N{NO-BREAK SPACE}"
     return f"β{space}={space}{turn.beta_deg:.0f}°"
@@ -214,7 +214,7 @@ def label_curves(panel: Axes) -> None:
     panel.text(3, 76, "dashed: commanded accelerations", color=style.MUTED, fontsize=10)
 
 
-def draw_hand(axes: Any, turn: Turn) -> None:
+def draw_hand(axes: Any, turn: HandTurn) -> None:
     """Draw the hand with its frame, the axis of the moment, and the axis about which the hand turns."""
     axes.set(xlim=(-1, 1), ylim=(-1, 1), zlim=(-1.15, 0.85))
     axes.set_box_aspect((1, 1, 1), zoom=1.75)

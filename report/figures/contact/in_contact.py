@@ -65,7 +65,7 @@ OUTCOME_HEADS = (
     "Result with the Euler Jacobian at the largest β",
     "Result with an impedance (springs)",
 )
-OUTCOMES = html.Table(
+OUTCOMES = html.PageTable(
     f"Task | Measured at the end | Number of episodes with Cartesian compliance | {' | '.join(OUTCOME_HEADS)}",
     words=OUTCOME_HEADS,
 )
@@ -109,7 +109,7 @@ def plate(rows: pd.DataFrame) -> dict[str, str]:
     }
 
 
-PEGS = html.Table(
+PEGS = html.PageTable(
     "Controller | Pegs not inserted if the frame of the hand is not tilted | "
     "Pegs not inserted if the frame of the hand is tilted"
 )

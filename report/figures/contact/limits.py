@@ -15,7 +15,7 @@ SETTINGS = {
 NAMES = {PAPERS: "Cartesian", PAPERS_EULER: "Euler", SPRINGS: "springs"}
 TITLES = {"crank": "angle by which the crank turned [deg]"}
 """What this table calls a measure, if not by its title."""
-LIMITS = html.Table(
+LIMITS = html.PageTable(
     f"Task | Measured quantity | Compliance | Episodes | {':.2g | '.join(SETTINGS.values())}:.2g"
 )
 

@@ -28,7 +28,7 @@ RESULT_HEADS = (
     "Error of the force at the end [N]",
     "Error of the moment at the end [N m]",
 )
-RESULTS = html.Table(
+RESULTS = html.PageTable(
     f"Task | Measured at the end | Order | Episodes | {' | '.join(RESULT_HEADS)}",
     words=("Episodes", *RESULT_HEADS),
 )
@@ -38,7 +38,7 @@ ARM = "puma560"
 ACCELERATION = (1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 """1 m/s^2 along x, of the example that theory is computed for."""
 CASE_HEADS = [f"Error of the {what}, {case} [{unit}]" for case in CASES for what, unit in SIZES]
-THEORY = html.Table(f"Order | {' | '.join(CASE_HEADS)}")
+THEORY = html.PageTable(f"Order | {' | '.join(CASE_HEADS)}")
 
 
 def facts(run: Run) -> dict:

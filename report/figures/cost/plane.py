@@ -26,7 +26,7 @@ LIST_HEAD_S, LIST_FOOT_S = 2.1, 1.32
 ABOVE_S = 0.13
 
 
-class Point(NamedTuple):
+class LawPoint(NamedTuple):
     """One law in the plane: flops and calls per control step, and the time in which 99 % of the starts settle [s]."""
 
     law: str
@@ -54,7 +54,7 @@ def facts(run: Run) -> dict[str, Any]:
     }
 
 
-def list_points(run: Run) -> list[Point]:
+def list_points(run: Run) -> list[LawPoint]:
     """Return the laws that have uniform starts and a cost, without those that are wrong on purpose."""
     costs = run.rows("costs", **FREE_BODY, branch="typical")
     points = []
@@ -62,11 +62,11 @@ def list_points(run: Run) -> list[Point]:
         if law.name in families.CONTROLS:
             continue
         spent = adequacy.tallied(costs[costs["contender"] == law.name], with_goal=True)
-        points.append(Point(law.name, spent.flops, spent.calls, law.pace.value))
+        points.append(LawPoint(law.name, spent.flops, spent.calls, law.pace.value))
     return points
 
 
-def describe_plane(points: list[Point], limit_s: float) -> str:
+def describe_plane(points: list[LawPoint], limit_s: float) -> str:
     """Say which laws settle nearly all starts in time with fewer operations than the paper's fast law."""
     known = {point.law: point for point in points}
     missing = [law for law in PAPERS_ORDER if law not in known]
@@ -89,7 +89,7 @@ def describe_plane(points: list[Point], limit_s: float) -> str:
 
 
 @responsive_picture
-def draw_plane(points: list[Point], limit_s: float, narrow: bool) -> Drawing:
+def draw_plane(points: list[LawPoint], limit_s: float, narrow: bool) -> Drawing:
     """Draw a dot a law: the paper's three and the later ones of the answer by name, all others in grey."""
     figure, axes = style.panels(height=3.6 if narrow else 3.0, narrow=narrow)
     named = (*PAPERS_ORDER, *LATER)
@@ -121,13 +121,13 @@ def draw_plane(points: list[Point], limit_s: float, narrow: bool) -> Drawing:
     return figure, f"Time in which 99 % of the starts settle against operations per control step: {said}."
 
 
-def describe_point(point: Point) -> str:
+def describe_point(point: LawPoint) -> str:
     """Write one law of the alternative text."""
     time = "never" if math.isinf(point.time_s) else f"{point.time_s:.2f} s"
     return f"{laws.title(point.law)} {count_words(point.flops, point.calls)}, {time}"
 
 
-def label_laws(axes: Any, points: list[Point], limit_s: float) -> None:
+def label_laws(axes: Any, points: list[LawPoint], limit_s: float) -> None:
     """Name the laws: slow ones beside their dots, fast ones, which lie together, in a list with a line to each dot."""
     slow = [point for point in points if point.time_s > limit_s]
     fast = [point for point in points if point.time_s <= limit_s]
@@ -147,6 +147,6 @@ def label_laws(axes: Any, points: list[Point], limit_s: float) -> None:
         axes.plot(*line, color=style.MUTED, linewidth=0.6, zorder=1)
 
 
-def height_of(point: Point) -> float:
+def height_of(point: LawPoint) -> float:
     """Return where a law is drawn: at its time, or in the band of those that never settle."""
     return NEVER_S if math.isinf(point.time_s) else point.time_s

@@ -61,22 +61,22 @@ def badge(verdict: str) -> Html:
 def law(name: str, text: str | None = None) -> Html:
     """Return the name of a regulator with the colour it has in every figure."""
     light = style.look(name).colour
-    key = f'<span class="key" style="--key: {both(light)}"></span>'
-    first, space, others = foreign(text or name).partition(" ")
+    key = f'<span class="key" style="--key: {light_dark_css(light)}"></span>'
+    first, space, others = escape_untrusted(text or name).partition(" ")
     return Html(f'<span class="law"><span class="together">{key}{first}</span>{space}{others}</span>')
 
 
-def foreign(text: str) -> str:
+def escape_untrusted(text: str) -> str:
     """Return a text that we did not write, for HTML and Markdown: it reads as it is, and nothing of it is markup."""
     return TAKEN.sub(lambda sign: f"&#{ord(sign[0])};", " ".join(str(text).split()))
 
 
-def together(text: str) -> Html:
-    """Words that no table may break into lines."""
+def no_break(text: str) -> Html:
+    """Return words that no table may break into lines."""
     return Html(f'<span class="together">{text}</span>')
 
 
-def both(light: str) -> str:
+def light_dark_css(light: str) -> str:
     """Return a colour for light and dark pages, as CSS."""
     return f"light-dark({light}, {style.TWINS[light]})"
 
@@ -124,10 +124,10 @@ def formula(tex: str) -> str:
     try:
         return mathml.block(tex)
     except ValueError:
-        return f'<div class="math"><code>{foreign(tex)}</code></div>'
+        return f'<div class="math"><code>{escape_untrusted(tex)}</code></div>'
 
 
-class Table:
+class PageTable:
     """A table of a page, in Markdown: numbers to the right, words to the left, gaps as a dash.
 
         TIMES = Table("Law | Starts | Settled [%]:.1f | Error", {"Error": power})

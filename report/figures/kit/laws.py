@@ -36,7 +36,11 @@ def title(name: str) -> str:
 def title_of(one: Contender) -> str:
     """Return the law's title, and its coordinates where they are others than the paper's."""
     where, title = one.representation, one.regulator.title
-    return f"{title} in {where.display.short or where.name}" if where and one.is_elsewhere else title
+    return (
+        f"{title} in {where.display.short or where.name}"
+        if where and one.uses_nonpaper_coordinates
+        else title
+    )
 
 
 def regulator_of(name: str) -> str:

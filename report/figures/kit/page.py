@@ -101,7 +101,7 @@ def absent(key: str, kind: str) -> Any:
     if kind == "figure":
         return blank(key.replace("-", " ").replace("_", " ").capitalize())
     if kind == "table":
-        return html.Table("Rows")([(ABSENT,)])
+        return html.PageTable("Rows")([(ABSENT,)])
     return {"fact": ABSENT, "sentence": html.Markdown(f"This is {ABSENT}.")}.get(kind, html.Html(f"<p>{ABSENT}</p>"))
 
 

@@ -89,7 +89,7 @@ CARTESIAN, EULER = "#0072b2", "#d55e00"
 """Colours of controllers and Jacobians: on Cartesian axes, and on Euler angles."""
 
 
-class Look(NamedTuple):
+class DrawnLook(NamedTuple):
     """How one regulator is drawn, in every figure."""
 
     colour: str
@@ -115,16 +115,16 @@ def colour_of(name: str) -> str:
     return YOURS if laws.is_users(word) else REST
 
 
-def look(name: str) -> Look:
+def look(name: str) -> DrawnLook:
     """Return how a law or a contender is drawn, unknown ones included."""
     word = laws.regulator_of(name)
     regulator = laws.regulator(word)
     if regulator and regulator.display.look:
         words = regulator.display.look
-        return Look(colour_of(name), words.marker, LINES[words.line])
+        return DrawnLook(colour_of(name), words.marker, LINES[words.line])
     spare = [*itertools.product(SPARE_MARKERS, SPARE_LINES)]
     marker, line = spare[mark(word) % len(spare)]
-    return Look(colour_of(name), marker, line)
+    return DrawnLook(colour_of(name), marker, line)
 
 
 def mark(text: str) -> int:

@@ -23,13 +23,13 @@ WEAK = 0.75
 """Share of the stiffness set: what feels less feels as half, or as a deadband."""
 HOST = "https://github.com"
 
-MEASURED = html.Table(
+MEASURED = html.PageTable(
     "Controller | Gains K, D | Stiffness at 0.06°, 3° and 57° [% of K] | Damping ratio:.3g | "
     "Inertia for critical damping [kg m²]:.2g | Starts at 180° that the body never leaves | "
     "Starts with unwinding | Largest change of the command's direction by a clip [°]:.0f | "
     "Settling time from 1°, 90° and 179.9° [s]"
 )
-FIXES = html.Table(
+FIXES = html.PageTable(
     "Controller | Stiffness at 3° [% of K]:.0f | Starts at 180° that the body never leaves | "
     "Smallest fix | Largest command as shipped → with the fix"
 )
@@ -100,10 +100,12 @@ def in_lines(rows: pd.DataFrame) -> list[tuple]:
 def measured(one: Any) -> tuple:
     """Return the cells of a controller but for its name."""
     has_body, times = one.starts > 0, (one.settling_1_s, one.settling_90_s, one.settling_179_9_s)
-    settled = html.together(", ".join("never" if math.isnan(time) else f"{time:.2g}" for time in times))
+    settled = html.no_break(
+        ", ".join("never" if math.isnan(time) else f"{time:.2g}" for time in times)
+    )
     return (
         f"{one.kp:.3g}, {one.kv:.3g}" if has_body else f"{one.kp:.3g} per period",
-        html.together(", ".join(f"{100.0 * getattr(one, name):.0f}" for name in FELT_RAD)),
+        html.no_break(", ".join(f"{100.0 * getattr(one, name):.0f}" for name in FELT_RAD)),
         one.damping_ratio if has_body else None,
         None if math.isnan(one.critical) else one.critical,
         stuck(one),
@@ -142,5 +144,5 @@ def describe_fix(row: Any) -> tuple:
         100.0 * row.stiffness_50mrad,
         stuck(row),
         found.words + known,
-        html.together(f"{found.before:.3g} → {found.after:.3g} {unit}"),
+        html.no_break(f"{found.before:.3g} → {found.after:.3g} {unit}"),
     )

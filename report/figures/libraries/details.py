@@ -1,14 +1,16 @@
 """The appendix on other libraries: how functions were tested, and questions of users."""
 
 from bench.experiments.tables.run import Run
-from bench.findings.questions import QUESTIONS, Question
+from bench.findings.questions import QUESTIONS, FieldQuestion
 from report.figures.kit import html
 from report.figures.kit.spelling import power
 from report.figures.libraries.as_shipped import reported
 from report.figures.libraries.libraries import COUNT_RAD, SINGLE_RAD, lines, passed, table
 
-PASSED = html.Table("Library | Functions")
-ASKED = html.Table("Question | Cause | Fix | Measured quantity | Value without the fix:.3g | Value with the fix:.3g")
+PASSED = html.PageTable("Library | Functions")
+ASKED = html.PageTable(
+    "Question | Cause | Fix | Measured quantity | Value without the fix:.3g | Value with the fix:.3g"
+)
 
 
 def facts(_: Run) -> dict:
@@ -27,7 +29,7 @@ def facts(_: Run) -> dict:
     }
 
 
-def describe_question(one: Question) -> tuple:
+def describe_question(one: FieldQuestion) -> tuple:
     """Return a question's row; what is no more than rounding is 0."""
     links = ", ".join(reported(thread, f"`{thread.partition('/')[2]}`") for thread in one.threads)
     measured = (value if abs(value) > 1e-12 else 0.0 for value in one.measure())

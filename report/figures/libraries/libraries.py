@@ -30,8 +30,8 @@ NO_NUMBER, ZERO, LONG_WAY, MISALIGNED, SHEET, DIGITS = "no-number", "zero", "lon
 OURS = "orientation-bench"
 """Our own laws in results/libraries, asked like the libraries."""
 
-FAULTS = html.Table("Library | Function | Fault | Smallest fix | Public discussion")
-FORMULAS = html.Table("Library | Formula | Fault | Right function, or change of the formula")
+FAULTS = html.PageTable("Library | Function | Fault | Smallest fix | Public discussion")
+FORMULAS = html.PageTable("Library | Formula | Fault | Right function, or change of the formula")
 FIX_WORDS = (
     (re.compile(r"^`-q` where `q.w < 0`, between the two$"), "negate q between the two calls if `q.w < 0`"),
     (re.compile(r"^`-q` where `?([\w.()]+) < 0`?(?:, before it)?$"), r"negate q first if `\1 < 0`"),

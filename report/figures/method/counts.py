@@ -28,7 +28,7 @@ IN_ENGINE = "in-engine"
 """MuJoCo's actuator: the law of the rotation vector, which is not counted twice."""
 
 CONTINUOUS, HELD = "continuous", "sampled"
-COUNTS = html.Table(
+COUNTS = html.PageTable(
     "Name | Where | Number of laws | Which laws | Starts per law | Continuous or sampled control "
     "| Starts that the rotation-matrix law loses"
 )

@@ -17,8 +17,10 @@ from report.figures.kit import html
 from report.figures.kit.offered import OFFERED_BYTES, SITE_DATA
 
 CITATION = ROOT / "CITATION.cff"
-FACTS = html.Table("Property of the run | Value")
-FILES = html.Table("File | Number of rows | Size [kB]", {"Size [kB]": lambda size: html.number(round(size))})
+FACTS = html.PageTable("Property of the run | Value")
+FILES = html.PageTable(
+    "File | Number of rows | Size [kB]", {"Size [kB]": lambda size: html.number(round(size))}
+)
 EPISODES = {
     "episodes": "Episodes of a free body or an arm",
     "trials": "Episodes in contact",
@@ -93,7 +95,10 @@ def describe_run(given: dict[str, Any]) -> html.Markdown | None:
     facts = pd.json_normalize(given, sep=" ").iloc[0].to_dict()
     known = [name for name in LABELS if name in facts]
     others = [name for name in facts if name not in LABELS]
-    return FACTS((html.foreign(label_fact(name)), describe_fact(name, facts[name])) for name in [*known, *others])
+    return FACTS(
+        (html.escape_untrusted(label_fact(name)), describe_fact(name, facts[name]))
+        for name in [*known, *others]
+    )
 
 
 def label_fact(name: str) -> str:
@@ -114,7 +119,7 @@ def describe_fact(name: str, value: Any) -> str:
         return html.number(int(value))
     if name in CODE and not TAKEN_BY_CODE.search(str(value)):
         return f"`{value}`"
-    return html.foreign(value)
+    return html.escape_untrusted(value)
 
 
 def list_files(run: Run) -> list[Path]:

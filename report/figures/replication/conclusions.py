@@ -12,8 +12,8 @@ from report.figures.kit import html
 from report.figures.kit.law_names import call_laws
 from report.figures.kit.spelling import prose
 
-SHORT = html.Table("Murphy (1988) concluded | Our verdict | What we measured | Figure")
-FULL = html.Table("Murphy's words | Claims | Our verdict | What we measured | Figure")
+SHORT = html.PageTable("Murphy (1988) concluded | Our verdict | What we measured | Figure")
+FULL = html.PageTable("Murphy's words | Claims | Our verdict | What we measured | Figure")
 
 FIGURES = {
     "three-laws": "fig-three-laws",
@@ -53,7 +53,7 @@ def count_statements(run: Run) -> dict[str, Any]:
     return {
         "decided": len(decided) + len(lacks),
         "words": describe_verdicts(decided, lacks),
-        "first_words": claims.told(verdict.first for verdict in decided),
+        "first_words": claims.format_tally(verdict.first for verdict in decided),
         "changed": len(revised),
         "turned": len(turned),
     }
@@ -61,7 +61,7 @@ def count_statements(run: Run) -> dict[str, Any]:
 
 def describe_verdicts(decided: list[Verdict], lacks: dict[str, str]) -> str:
     """Say how many statements have each verdict, and how many this run cannot decide."""
-    counted = [claims.told(verdict.word for verdict in decided)] if decided else []
+    counted = [claims.format_tally(verdict.word for verdict in decided)] if decided else []
     if lacks:
         counted.append(f"this run does not test {len(lacks)} statements")
     return ", ".join(counted)

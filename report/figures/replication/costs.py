@@ -10,7 +10,7 @@ from report.figures.kit.quotes import quote
 from report.figures.kit.spelling import prose
 from report.figures.replication.conclusions import call_laws, link_claims
 
-COSTS = html.Table("Claim | Murphy's words | Our verdict | What we measured")
+COSTS = html.PageTable("Claim | Murphy's words | Our verdict | What we measured")
 
 CLAIMS = ("C12", "C26", "C33", "C17")
 """Claims on cost: the order of the laws, the Euler Jacobian, its force control, and cost beside performance."""

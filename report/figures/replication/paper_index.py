@@ -17,7 +17,7 @@ from report.figures.kit.spelling import marked_up, prose
 from report.figures.replication.conclusions import EVIDENCE, link_claims
 from report.subjects import find_pages
 
-ITEMS = html.Table(
+ITEMS = html.PageTable(
     "Part of the paper | What this part says | Chapter of this book | Claims | Where the evidence "
     "is | Command"
 )

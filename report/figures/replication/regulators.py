@@ -16,7 +16,7 @@ from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX
 from report.figures.kit.quotes import quote
 from report.figures.kit.spelling import prose
 
-REGULATORS = html.Table(
+REGULATORS = html.PageTable(
     "Regulator | Murphy's words | Starts that settle [%] | Median settling time [s] | "
     "Time in which 99 % of the starts settle [s] | Starts from which the regulator fails"
 )

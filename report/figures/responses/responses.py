@@ -40,7 +40,7 @@ AWAY_DEG = 1.0
 """A body that turns further from the goal than this turns away from it, visibly."""
 
 
-class Response(NamedTuple):
+class LawResponse(NamedTuple):
     """What one law does from the start of its figure.
 
     Attributes:
@@ -63,7 +63,7 @@ class Response(NamedTuple):
         return float(np.degrees(self.trace["angle_rad"].iloc[0]))
 
 
-class Limits(NamedTuple):
+class AxisLimits(NamedTuple):
     """The axes that all figures share [deg].
 
     Attributes:
@@ -97,7 +97,9 @@ def facts(run: Run) -> dict[str, Any]:
     return values
 
 
-def measure_response(traces: pd.DataFrame, episodes: pd.DataFrame, end: str, kp: float, kv: float) -> Response:
+def measure_response(
+    traces: pd.DataFrame, episodes: pd.DataFrame, end: str, kp: float, kv: float
+) -> LawResponse:
     """Return what the law of a figure does from the figure's start."""
     law = FIGURES[end]
     at = {"start_id": f"figure-2.{end}", "contender": law}
@@ -105,14 +107,14 @@ def measure_response(traces: pd.DataFrame, episodes: pd.DataFrame, end: str, kp:
     row = choose_rows(episodes, at).iloc[0]
     peak_deg = float(np.degrees(trace["angle_rad"].max()))
     shown = trace[trace["time_s"] <= SHOWN_S]
-    return Response(law, shown, row, bend_deg(trace, kp, kv), peak_deg)
+    return LawResponse(law, shown, row, bend_deg(trace, kp, kv), peak_deg)
 
 
-def find_limits(responses: list[Response]) -> Limits:
+def find_limits(responses: list[LawResponse]) -> AxisLimits:
     """Return axes that hold all responses."""
     euler = max(float(np.abs(euler_deg(response.trace)).max()) for response in responses)
     goal = max(response.peak_deg for response in responses)
-    return Limits(round_up(euler), round_up(goal))
+    return AxisLimits(round_up(euler), round_up(goal))
 
 
 def round_up(angle_deg: float) -> float:
@@ -126,7 +128,7 @@ def describe_start(row: pd.Series) -> str:
     return ", ".join(angles).replace("-", "\N{MINUS SIGN}")
 
 
-def describe_finding(response: Response) -> str:
+def describe_finding(response: LawResponse) -> str:
     """Say how close to the linear response the angles stay, how long the body takes, and by which way."""
     bend = float(response.bend_deg.max())
     distance = f"{bend:.0f}°" if bend > 1.0 else f"{power(bend)} deg"
@@ -149,7 +151,9 @@ def euler_deg(trace: pd.DataFrame) -> np.ndarray:
 
 
 @responsive_picture
-def draw_response(response: Response, kp: float, kv: float, limits: Limits, narrow: bool) -> Drawing:
+def draw_response(
+    response: LawResponse, kp: float, kv: float, limits: AxisLimits, narrow: bool
+) -> Drawing:
     """Draw one law's Euler angles, dashed their linear closed form; beside them its angle to the goal."""
     shape = (2, 1) if narrow else (1, 2)
     figure, (left, right) = style.panels(*shape, height=4.6 if narrow else 2.1, narrow=narrow)
@@ -176,7 +180,7 @@ def draw_response(response: Response, kp: float, kv: float, limits: Limits, narr
     return figure, describe_picture(response, angles[0], goal)
 
 
-def describe_picture(response: Response, first: np.ndarray, goal: np.ndarray) -> str:
+def describe_picture(response: LawResponse, first: np.ndarray, goal: np.ndarray) -> str:
     """Return the alternative text."""
     names = [name for name, *_ in ANGLES]
     begins = ", ".join(f"{name} {angle:.0f}" for name, angle in zip(names, first, strict=True))

@@ -13,8 +13,8 @@ from bench.findings.amounts import capitalize
 from bench.findings.perturbed import (
     FOLLOWED_RAD,
     LOST,
+    Direction,
     Threshold,
-    Way,
     by_level,
     studied,
     thresholds,
@@ -28,9 +28,9 @@ from report.figures.kit.page import in_run
 
 AXES = tuple(tasks.axis_names())
 
-WEAKER = html.Table("Law | Perturbation | Threshold of this law | Threshold of the other laws")
+WEAKER = html.PageTable("Law | Perturbation | Threshold of this law | Threshold of the other laws")
 
-Found = dict[str, dict[Way, Threshold]]
+Found = dict[str, dict[Direction, Threshold]]
 
 
 @functools.cache
@@ -83,19 +83,26 @@ def compared(each: Found) -> list[str]:
     ]
 
 
-def differing(each: Found) -> list[Way]:
-    """Return the ways along which thresholds of the compared laws differ."""
-    every = dict.fromkeys(way for own in each.values() for way in own)
-    return [way for way in every if len({str(each[law][way]) for law in compared(each)}) > 1]
+def differing(each: Found) -> list[Direction]:
+    """Return the directions along which thresholds of the compared laws differ."""
+    every = dict.fromkeys(
+        direction for thresholds_of_law in each.values() for direction in thresholds_of_law
+    )
+    differ = []
+    for direction in every:
+        texts = {str(each[law][direction]) for law in compared(each)}
+        if len(texts) > 1:
+            differ.append(direction)
+    return differ
 
 
 def facts(run: Run) -> dict:
     """Return how many laws and perturbations there are, how they differ, and limits of the linear loop."""
     each = found(run)
-    apart = [tasks.axis(way.axis).title.lower() + " (decreasing)" * (not way.grows) for way in differing(each)]
+    apart = [_name_direction(direction).lower() for direction in differing(each)]
     # noise at 180° is drawn on the page on what an error must do
-    ways = [way for way in differing(each) if way.axis != HALF_TURN]
-    groups = group_alike(each, ways)
+    directions = [direction for direction in differing(each) if direction.axis != HALF_TURN]
+    groups = group_alike(each, directions)
     kp, kv = gains(along(run, "delay"))
     return {
         "limit": f"{robustness_theory.least_rate(kp, kv):g}",
@@ -109,43 +116,54 @@ def facts(run: Run) -> dict:
         "apart": "; ".join(apart) or "none",
         "alike": len(groups[0]),
         "compared": len(compared(each)),
-        "weaker": WEAKER(list_weaker(groups, each, ways)) or "All laws have the same thresholds.",
-        "weaker_finding": describe_weaker(groups, each, ways),
+        "weaker": WEAKER(list_weaker(groups, each, directions))
+        or "All laws have the same thresholds.",
+        "weaker_finding": describe_weaker(groups, each, directions),
     }
 
 
-def group_alike(each: Found, ways: list[Way]) -> list[list[str]]:
+def group_alike(each: Found, directions: list[Direction]) -> list[list[str]]:
     """Return the compared laws in groups of equal thresholds, the largest group first."""
     groups: dict[tuple[str, ...], list[str]] = {}
     for law in compared(each):
-        groups.setdefault(tuple(str(each[law][way]) for way in ways), []).append(law)
+        texts = tuple(str(each[law][direction]) for direction in directions)
+        groups.setdefault(texts, []).append(law)
     return sorted(groups.values(), key=len, reverse=True)
 
 
-def list_weaker(groups: list[list[str]], each: Found, ways: list[Way]) -> Iterator[tuple[str, ...]]:
+def list_weaker(
+    groups: list[list[str]], each: Found, directions: list[Direction]
+) -> Iterator[tuple[str, ...]]:
     """Return a row for every threshold that differs from the threshold of the largest group."""
     usual, *others = groups
     for law in (law for alike in others for law in alike):
-        for way in ways:
-            threshold, common = each[law][way], each[usual[0]][way]
+        for direction in directions:
+            threshold, common = each[law][direction], each[usual[0]][direction]
             if str(threshold) != str(common):
                 name = families.link(law, families.word(law))
-                yield name, capitalize(_title(way)), _with_unit(threshold, way), _with_unit(common, way)
+                title = capitalize(_title(direction))
+                yield name, title, _with_unit(threshold, direction), _with_unit(common, direction)
 
 
-def describe_weaker(groups: list[list[str]], each: Found, ways: list[Way]) -> str:
+def describe_weaker(groups: list[list[str]], each: Found, directions: list[Direction]) -> str:
     """Say how many laws have other thresholds than the largest group, and for how many perturbations."""
     usual, *others = groups
     laws = [law for alike in others for law in alike]
     if not laws:
         return f"All {len(usual)} laws have the same thresholds"
     common = each[usual[0]]
-    apart = {law: [way for way in ways if str(each[law][way]) != str(common[way])] for law in laws}
-    is_less = all(_is_less(each[law][way], common[way], way) for law in laws for way in apart[law])
+    apart: dict[str, list[Direction]] = {law: [] for law in laws}
+    is_less = True
+    for law in laws:
+        for direction in directions:
+            threshold = each[law][direction]
+            if str(threshold) != str(common[direction]):
+                apart[law].append(direction)
+                is_less = is_less and _is_less(threshold, common[direction], direction)
     verbs = ("have other thresholds", "has other thresholds")
     if is_less:
         verbs = ("withstand only milder levels", "withstands only milder levels")
-    counts = sorted({len(ways_of_law) for ways_of_law in apart.values()})
+    counts = sorted({len(directions_of_law) for directions_of_law in apart.values()})
     number = f"{counts[0]} to {counts[-1]}" if len(counts) > 1 else f"{counts[0]}"
     verb = verbs[len(laws) == 1]
     each_law = " each" if len(laws) > 1 else ""
@@ -155,23 +173,28 @@ def describe_weaker(groups: list[list[str]], each: Found, ways: list[Way]) -> st
     )
 
 
-def _is_less(threshold: Threshold, common: Threshold, way: Way) -> bool:
+def _is_less(threshold: Threshold, common: Threshold, direction: Direction) -> bool:
     """Tell whether a threshold is milder than another one; no level at all is the mildest."""
     if math.isnan(threshold.held):
         return True
-    return threshold.held < common.held if way.grows else threshold.held > common.held
+    return threshold.held < common.held if direction.grows else threshold.held > common.held
 
 
-def _title(way: Way) -> str:
+def _name_direction(direction: Direction) -> str:
+    """Return the title of a perturbation, with its direction."""
+    return tasks.axis(direction.axis).title + ("" if direction.grows else " (decreasing)")
+
+
+def _title(direction: Direction) -> str:
     """Return what a perturbation is called in a sentence, with its direction."""
-    title = tasks.axis(way.axis).title
-    return f"{title[0].lower()}{title[1:]}{'' if way.grows else ' (decreasing)'}"
+    title = _name_direction(direction)
+    return f"{title[0].lower()}{title[1:]}"
 
 
-def _with_unit(threshold: Threshold, way: Way) -> str:
+def _with_unit(threshold: Threshold, direction: Direction) -> str:
     """Return a threshold with its unit, and whether the last level that was tried is withstood."""
     if math.isnan(threshold.held):
         return "no level"
-    unit = tasks.axis(way.axis).unit
-    last = " (last level tried)" if threshold.is_whole else ""
+    unit = tasks.axis(direction.axis).unit
+    last = " (last level tried)" if threshold.withstands_all else ""
     return f"{threshold.held:g}{'' if unit == '1' else f' {unit}'}{last}"

@@ -14,10 +14,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from bench.engines.metrics.contact_metric import ContactMetric, Pose, Response, once_a_pose
+from bench.engines.metrics.contact_metric import ContactMetric, ContactResponse, Pose, once_a_pose
 
 
-def given(one: Response) -> np.ndarray:
+def given(one: ContactResponse) -> np.ndarray:
     """E [J] after each tick but the first, N - 1."""
     rate = (one.omega[1:] + one.omega[:-1]) / 2.0
     along = (one.force[1:] * np.diff(one.p, axis=0)).sum(axis=1)

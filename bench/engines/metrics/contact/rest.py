@@ -9,7 +9,7 @@ import numpy as np
 
 from bench.engines.metrics.contact.scene import FLAT, angle_to_plate
 from bench.engines.metrics.contact_force import from_first_touch, last
-from bench.engines.metrics.contact_metric import ContactMetric, Pose, Response
+from bench.engines.metrics.contact_metric import ContactMetric, ContactResponse, Pose
 from bench.engines.metrics.measured_compliance import turned
 from tasks.contact_rest import REST
 from tasks.rules import RULES
@@ -32,7 +32,7 @@ def time_to_align(pose: Pose) -> float:
     return float(time[aligned] - time[0]) if aligned < len(time) else np.nan
 
 
-def _remaining(pose: Pose, moved: Callable[[Response, int], np.ndarray]) -> float:
+def _remaining(pose: Pose, moved: Callable[[ContactResponse, int], np.ndarray]) -> float:
     """Return the length of the motion from the tick REST.hold_s before the end to it, over the time between them."""
     one = last(pose)
     if one is None or not pose.task.rests or len(one.time) < 2:

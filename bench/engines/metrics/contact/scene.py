@@ -6,7 +6,7 @@ All but the penetration are NaN on other tasks, and where an episode broke off.
 import numpy as np
 
 from bench.engines.metrics.contact_force import insertion, last, scene_normal, wrist_axis
-from bench.engines.metrics.contact_metric import ContactMetric, Pose, Response
+from bench.engines.metrics.contact_metric import ContactMetric, ContactResponse, Pose
 from tasks.domains.peg_in_hole import DEPTH
 
 FLAT = "surface-alignment"
@@ -20,7 +20,7 @@ def alignment_error(pose: Pose) -> float:
     return float(angle_to_plate(one)[-1]) if one is not None and pose.task.name == FLAT else np.nan
 
 
-def angle_to_plate(one: Response) -> np.ndarray:
+def angle_to_plate(one: ContactResponse) -> np.ndarray:
     """Return the angle to the plate [rad] at every tick, N."""
     out, normal = wrist_axis(one), scene_normal(one.trial)
     return np.arctan2(np.linalg.norm(np.cross(out, normal), axis=1), -out @ normal)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from bench.engines.metrics.contact_metric import ContactMetric, Pose, Response
+from bench.engines.metrics.contact_metric import ContactMetric, ContactResponse, Pose
 from bench.law.control import hybrid
 from bench.law.kinds import Coordinates
 from bench.law.so3 import Rotation, from_quaternion, relative, rotate_back
@@ -34,7 +34,7 @@ def work_residual(pose: Pose) -> float:
 
 
 def sample_ports(
-    coordinates: Coordinates, convert: Callable, from_goal: bool, response: Response
+    coordinates: Coordinates, convert: Callable, from_goal: bool, response: ContactResponse
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return m [N m], omega [rad/s], F_E and Edot at TICKS ticks of an episode, TICKS x 3 each."""
     goal = from_quaternion(response.trial.goal_wxyz)

@@ -44,5 +44,5 @@ BASELINE = Baseline(
         property="global in the joints",
     ),
     assemble=assemble,
-    through=(JOINTS, INERTIA),
+    resolution=(JOINTS, INERTIA),
 )

@@ -51,7 +51,7 @@ REGULATOR = Law(
     formula=r"u = \frac{K_v\,s}{1 + K_v |s|/u_{\max}}, \quad"
     r" s = 2 \tfrac{K_p}{K_v}\,\epsilon - \omega",
     law=law,
-    later=True,
+    is_beyond_the_paper=True,
     display=Display(
         "Boskovic, Li, Mehra", Look("green", "d", "dash-dot"), "With the bound of the motor", CHORD
     ),

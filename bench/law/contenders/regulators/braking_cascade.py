@@ -63,6 +63,6 @@ REGULATOR = Law(
     formula=r"u = K_v\bigl(c(\theta)\,k - \omega\bigr), \quad c = \sqrt{2a(\theta - d/2)}"
     r" \text{ beyond } d = a K_v^2/K_p^2,\ \tfrac{K_p}{K_v}\theta \text{ below}",
     law=law,
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("braking cascade", Look("blue", "h", "dashed"), "With the bound of the motor", ANGLE),
 )

@@ -34,7 +34,7 @@ REGULATOR = Law(
     r" \text{ beyond } d = a K_v^2/K_p^2, \quad \theta \le 2\arccos(-\delta)",
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),
-    later=True,
+    is_beyond_the_paper=True,
     display=Display(
         "braking cascade with memory", Look("sky", "h", "dashed"), "With the bound of the motor", ANGLE
     ),

@@ -94,7 +94,7 @@ REGULATOR = Law(
     r" \quad c_0\,p = K_p,\ c_0 + g\,p = K_v",
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),
-    later=True,
+    is_beyond_the_paper=True,
     display=Display(
         "braking cascade with feedforward",
         Look("purple", "<", "dash-dot"),

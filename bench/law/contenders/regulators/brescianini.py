@@ -88,6 +88,6 @@ REGULATOR = Law(
     r" \quad \omega_{c,i} \to \omega_{\max,i}\operatorname{sgn}(\omega_i)"
     r" \text{ where } \omega_{c,i}\,\omega_i < 0,\ |\omega_i| > \omega_{h,i}",
     law=law,
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("Brescianini", Look("orange", "d", "dotted"), "On the quaternion", CHORD),
 )

@@ -27,6 +27,6 @@ REGULATOR = Law(
     attribution=ADAPTED,
     formula=r"u = K_p\, B\,(E_d - E) - K_v\,\omega",
     law=OnCoordinates(law_in, ("zyx-euler",)),
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("Euler gradient", Look("sky", "s", "dashed"), "Euler variants, controls"),
 )

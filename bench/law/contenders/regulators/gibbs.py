@@ -35,6 +35,6 @@ REGULATOR = Law(
     law=law,
     property="almost global",
     margin=half_cosine_squared,
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("Gibbs", Look("green", "s", "dashed"), "On three parameters", TANGENT),
 )

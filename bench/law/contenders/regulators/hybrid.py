@@ -32,6 +32,6 @@ REGULATOR = Law(
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("hybrid", Look("sky", "P", "dashed"), "On the quaternion", CHORD),
 )

@@ -39,7 +39,7 @@ REGULATOR = Law(
     formula=r"u = K_p \log(R_d R^\top) - K_v\,\omega",
     law=law,
     property="almost global",
-    later=True,
+    is_beyond_the_paper=True,
     role=ACTUATOR,
     display=Display("MuJoCo's actuator", Look("blue", "*", "dotted"), "On three parameters"),
 )

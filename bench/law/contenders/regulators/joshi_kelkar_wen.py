@@ -40,7 +40,7 @@ REGULATOR = Law(
     formula=r"u = \tfrac12 \bigl((\eta I + [\epsilon]_\times) G_p + \gamma (1 - \eta) I\bigr)\,\epsilon - G_r\,\omega",
     law=law,
     property="almost global",
-    later=True,
+    is_beyond_the_paper=True,
     display=Display(
         "hardening spring",
         Look("orange", "s", "solid"),

@@ -66,7 +66,7 @@ REGULATOR = Law(
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
-    later=True,
+    is_beyond_the_paper=True,
     display=Display(
         "late braking",
         Look("yellow", "D", "dash-dot"),

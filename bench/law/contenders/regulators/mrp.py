@@ -28,6 +28,6 @@ REGULATOR = Law(
     formula=r"u = 4 K_p\,\sigma - K_v\,\omega, \quad \sigma = \tan(\theta/4)\,k",
     law=law,
     property="almost global",
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("MRP", Look("wine", "^", "solid"), "On three parameters", QUARTER),
 )

@@ -50,6 +50,6 @@ REGULATOR = Law(
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("MRP made linear", Look("purple", "v", "dash-dot"), "On three parameters", LINEAR_MRP),
 )

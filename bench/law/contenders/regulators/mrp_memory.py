@@ -39,6 +39,6 @@ REGULATOR = Law(
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("MRP with memory", Look("violet", "X", "dashed"), "With memory", QUARTER),
 )

@@ -39,6 +39,6 @@ REGULATOR = Law(
     law=law,
     property="almost global from rest",
     margin=half_cosine_squared,
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("Paielli–Bach", Look("yellow", "d", "solid"), "On the quaternion", LINEAR_SINE),
 )

@@ -112,6 +112,6 @@ REGULATOR = Law(
     formula=r"u = K_v\Bigl(\operatorname{sat}_{\omega_{\max}}\bigl(2 \tfrac{K_p}{K_v}"
     r"(\epsilon_x, \epsilon_y, \epsilon_z/w)\bigr) - \omega\Bigr), \quad \psi \to w\,\psi",
     law=law,
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("PX4", Look("vermillion", "d", "solid"), "On the quaternion"),
 )

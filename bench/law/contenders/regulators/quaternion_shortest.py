@@ -23,6 +23,6 @@ REGULATOR = Law(
     formula=r"u = 2 K_p\,\operatorname{sgn}(\eta)\,\epsilon - K_v\,\omega",
     law=law,
     property="almost global",
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("shortest quaternion", Look("purple", "o", "solid"), "On the quaternion", CHORD),
 )

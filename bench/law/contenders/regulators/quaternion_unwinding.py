@@ -36,7 +36,7 @@ REGULATOR = Law(
     law=law,
     memory=(-1.0, 0.0, 0.0, 0.0),
     property="none",
-    later=True,
+    is_beyond_the_paper=True,
     role=CONTROL,
     display=Display(
         "quaternion without sign",

@@ -33,6 +33,6 @@ REGULATOR = Law(
     formula=r"u = K_p \log(R_d R^\top) - K_v\,\omega",
     law=law,
     property="almost global",
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("rotation vector", Look("sky", "o", "solid"), "On three parameters", ANGLE),
 )

@@ -30,6 +30,6 @@ REGULATOR = Law(
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("rotation vector with memory", Look("sky", "P", "dashed"), "With memory", ANGLE),
 )

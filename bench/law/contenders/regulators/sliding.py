@@ -63,6 +63,6 @@ REGULATOR = Law(
     formula=r"u = -\tfrac{\lambda}{2}(\eta\,\omega + \epsilon \times \omega) - K(\omega - \lambda\,\epsilon)",
     law=law,
     property="almost global",
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("sliding", Look("orange", "v", "dash-dot"), "On the quaternion", SLIDING),
 )

@@ -30,6 +30,6 @@ REGULATOR = Law(
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("sliding with memory", Look("orange", "d", "dashed"), "With memory", SLIDING),
 )

@@ -45,6 +45,6 @@ REGULATOR = Law(
     formula=r"u = K_p\, s / \sqrt{1 + t} - K_v\,\omega",
     law=law,
     property="almost global",
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("square root", Look("blue", "D", "solid"), "On the matrix", CHORD),
 )

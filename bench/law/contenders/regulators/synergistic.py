@@ -96,6 +96,6 @@ REGULATOR = Law(
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
     stiffness=(1.1, 1.0, 0.9),
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("synergistic", Look("green", "D", "dashed"), "With memory"),
 )

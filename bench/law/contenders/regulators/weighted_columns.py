@@ -43,6 +43,6 @@ REGULATOR = Law(
     law=law,
     property="almost global",
     stiffness=(1.1, 1.0, 0.9),
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("weighted columns", Look("sky", "p", "dashed"), "On the matrix"),
 )

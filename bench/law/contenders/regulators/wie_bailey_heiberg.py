@@ -63,6 +63,6 @@ REGULATOR = Law(
     formula=r"u = K_v\Bigl(\min\bigl(2 \tfrac{K_p}{K_v}|\epsilon|,\, \sqrt{4 a |\epsilon|}\bigr)"
     r"\,\tfrac{\epsilon}{|\epsilon|} - \omega\Bigr)",
     law=law,
-    later=True,
+    is_beyond_the_paper=True,
     display=Display("Wie, Bailey, Heiberg", Look("blue", "<", "dotted"), "With the bound of the motor", CHORD),
 )

@@ -37,7 +37,7 @@ REGULATOR = Law(
     r"\,\tfrac{h\,\epsilon}{|\epsilon|} - \omega\Bigr), \quad h^+ = -h \text{ where } h\,\eta < -\delta",
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),
-    later=True,
+    is_beyond_the_paper=True,
     display=Display(
         "Wie, Bailey, Heiberg with memory", Look("sky", "<", "dotted"), "With the bound of the motor", CHORD
     ),

@@ -55,6 +55,6 @@ REPRESENTATION = Coordinates(
     **functions_of(globals()),
     **ABOUT_Z,
     **fields_of(elements),
-    papers=True,
+    is_in_paper=True,
     display=Display("Z-Y-X angles", Look("vermillion", "s", "solid")),
 )

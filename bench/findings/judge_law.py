@@ -31,7 +31,7 @@ Parts = dict[tuple[str, str], list[pd.DataFrame]]
 """Rows by law and experiment."""
 
 
-def judged(
+def judge_laws(
     regulators: Iterable[Law], limit_s: float = LIMIT_S, report: Callable[[Unit], object] = bool
 ) -> list[Judgement]:
     """Return the judgement of every law; 25 starts are hung after limit_s of processor time. BadLaw: a file is no law.
@@ -47,7 +47,7 @@ def judged(
         rest = dataclasses.replace(plan, units=without(plan.units, explained))
         run_episodes(rest, sandbox, parts, report)
         is_lost, reasons = bool(sandbox.notes), sandbox.reasons
-    return [judgement(one, parts, is_lost, reasons.get(one.name, "")) for one in laws]
+    return [describe_law(one, parts, is_lost, reasons.get(one.name, "")) for one in laws]
 
 
 def look_at_commands(plan: Plan, sandbox: Sandbox, parts: Parts, report: Callable[[Unit], object]) -> None:
@@ -113,7 +113,9 @@ def plan_of(laws: list[Contender]) -> Plan:
     return dataclasses.replace(first, units=first.units + second.units)
 
 
-def judgement(one: Contender, parts: Parts, is_lost: bool = False, reason: str = "") -> Judgement:
+def describe_law(
+    one: Contender, parts: Parts, is_lost: bool = False, reason: str = ""
+) -> Judgement:
     """Return what its rows say of a law; reason: why its process gave no rows, the first time."""
     field, episodes, perturbed = (
         pd.concat([pd.DataFrame(), *parts[one.name, name]], ignore_index=True)
@@ -124,11 +126,13 @@ def judgement(one: Contender, parts: Parts, is_lost: bool = False, reason: str =
     robust = [] if is_lost else why.perturbed(perturbed)  # the first loss ends them: the rest was not tried
     cause = why.find_cause(field, one.regulator.memory is not None)
     skipped = why.not_run(cause, episodes, is_lost)
-    said = (*why.sentences(field, declared, cause, one.regulator.stiffness), *moves, *robust, *skipped)
-    if any(each.fault == why.FAULTS["crashed"] for each in said):  # where it raises its command is no number
-        said = tuple(each for each in said if each.fault != "no number")
-    heading = why.head_lost(one.name, episodes, reason or find_reason(one, episodes))
-    return Judgement(one.name, said, _beside(field, episodes), is_lost, heading)
+    of_command = why.sentences(field, declared, cause, one.regulator.stiffness)
+    sentences = (*of_command, *moves, *robust, *skipped)
+    if any(sentence.fault == why.FAULTS["crashed"] for sentence in sentences):
+        # Where the law raises an error, its command is no number: that is one fault, not two.
+        sentences = tuple(sentence for sentence in sentences if sentence.fault != "no number")
+    heading = why.describe_lost_starts(one.name, episodes, reason or find_reason(one, episodes))
+    return Judgement(one.name, sentences, _beside(field, episodes), is_lost, heading)
 
 
 def _beside(field: pd.DataFrame, episodes: pd.DataFrame) -> tuple[dict[str, Any], ...]:
