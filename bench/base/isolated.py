@@ -60,8 +60,8 @@ UNLIMITED = 0
 """In place of MAPPED, for code that may use a graphics card: its driver maps more than there is."""
 
 LENGTH = struct.Struct("!I")
-PIECE, MOST = 1 << 20, 1 << 28
-"""Bytes that are read at once, and bytes of a message."""
+PIECE, MOST, SHOWN = 1 << 20, 1 << 28, 400
+"""Bytes that are read at once, bytes of a message, and letters of a reason that are shown."""
 
 LOOK_S = 0.2
 """How often it is looked whether a silent process is there still."""
@@ -78,9 +78,6 @@ CLOSING_S = 5.0
 CRASHED, HUNG, KILLED, FORGED = "crashed", "hung", "killed", "forged"
 """Why there is no answer: the code raised or ended its process; it did not return in time; something
 ended its process by SIGKILL, perhaps the system for want of memory; what came was no answer."""
-
-SHOWN = 400
-"""Letters of a reason that are shown."""
 
 DONE, REFUSED, PROGRESS = b"+", b"?", b"~"
 SIGNS = {CRASHED: b"!", HUNG: b"."}
