@@ -23,14 +23,8 @@ from bench.audit.faults import every_fault
 from bench.audit.load import load
 from bench.audit.report import Report, paragraph
 from bench.base.errors import BadFunction, BenchError
-from bench.base.isolated import (
-    Line,
-    NoAnswer,
-    TimeLimits,
-    answer_in_fork,
-    send_progress,
-    serve,
-)
+from bench.base.isolated import Line, NoAnswer, TimeLimits
+from bench.base.serving import answer_in_fork, send_progress, serve
 
 LONG = 0.1
 """Share of the limit: a call that has lasted longer when time is up hangs; of shorter ones the audit is slow."""

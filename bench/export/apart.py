@@ -12,7 +12,7 @@ from bench.law.contenders.law_process import answer, ask
 from bench.law.kinds import Law
 
 LIMITS = TimeLimits(processor_s=60.0, wall_s=300.0)
-"""Of one law: ten times what ours take."""
+"""Time limits for the export of one law: ten times what ours take."""
 
 NAME = re.compile(r"(src/|tests/)?[A-Za-z0-9_][A-Za-z0-9_.]{0,120}")
 

@@ -19,7 +19,7 @@ from bench.export.language import find_language
 from bench.export.subject import find_subject, subject_words
 
 PACKAGE = "orientation_audit"
-SHARED = ("errors", "isolated", "processes", "signs")
+SHARED = ("errors", "isolated", "processes", "serving", "signs")
 """Modules of `bench.base` that the audit uses."""
 NAMES = {"bench.audit": PACKAGE, "bench/audit": PACKAGE}
 NAMES |= {f"bench.base.{module}": f"{PACKAGE}.{module}" for module in SHARED}

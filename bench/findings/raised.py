@@ -14,7 +14,7 @@ from bench.law.kinds import Law
 from bench.law.so3 import from_quaternion
 
 LIMITS = TimeLimits(processor_s=10.0, wall_s=60.0)
-"""Of the calls."""
+"""Time limits for the calls."""
 
 
 def find_exception(law: Law, rows: pd.DataFrame) -> str:

@@ -82,7 +82,7 @@ IN_A_TICK = {law: tuple(told) for law, told in DATA["in-a-tick"].items()}
 """Python code: what a law answers in the first tick of an episode, one after the other."""
 
 LOST = {law: tuple(told) for law, told in DATA["lost-in-a-tick"].items()}
-"""The same of laws that lose what is run together: each has a file, and does it in its first episode."""
+"""Such answers, with which the episodes that run together are lost: each law has a file, and one such episode."""
 
 A_UNIT = MOST["reference"]
 """Episodes that are run together in Python."""

@@ -8,7 +8,8 @@ import sys
 import time
 
 from bench.base.errors import BadNumber
-from bench.base.isolated import Line, send_progress, serve
+from bench.base.isolated import Line
+from bench.base.serving import send_progress, serve
 
 
 def misbehave(request: dict, line: Line) -> bytes:

@@ -13,7 +13,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from bench.base.isolated import IsolatedProcess, Line, NoAnswer, TimeLimits, serve
+from bench.base.isolated import IsolatedProcess, Line, NoAnswer, TimeLimits
+from bench.base.serving import serve
 from bench.law.contenders.law_file import check_answers, check_fields, load_law, read_law
 from bench.law.contenders.law_process import bad_law
 from bench.law.display import Display, Look

@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from bench.base.errors import BadLaw, BenchError
-from bench.base.isolated import FORGED, IsolatedProcess, Line, NoAnswer, Refused, TimeLimits, serve
+from bench.base.isolated import FORGED, IsolatedProcess, Line, NoAnswer, Refused, TimeLimits
+from bench.base.serving import serve
 from bench.law.contenders.law_file import keep_text
 
 

@@ -5,7 +5,8 @@ compile what its rows need, or, in a fork, to make them.
 """
 
 from bench.base.errors import BadLaw, BenchError
-from bench.base.isolated import CRASHED, Line, NoAnswer, answer_in_fork, serve
+from bench.base.isolated import CRASHED, Line, NoAnswer
+from bench.base.serving import answer_in_fork, serve
 from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
 from bench.experiments.tables.packed import pack
