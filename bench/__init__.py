@@ -17,7 +17,7 @@ engines/      one episode, four ways: reference, native, ideal-rk4, ideal-held; 
               metrics/, what is measured: motion/ along an episode, contact/ of a hand in contact
               counting/, operations of the code that runs
 experiments/  one file an experiment with its columns, units and rows; what plans them (experiment, plan, suites)
-              tables/: schema, store, read, statistics, lock; trust and kept_laws (laws of a results folder)
+              tables/: schema, store, rows, read, statistics, lock; trust and kept_laws (laws of a results folder)
 export/       laws as code for another's controller: C, C++, Python, JavaScript, with test vectors; wheel, which has the
               audit and all laws in Python
 running/      run, run_folder (until it is finished), order, precompile, wire_format, sandbox/ (a user's laws),

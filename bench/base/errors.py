@@ -34,6 +34,10 @@ class BadLaw(BenchError):
     """A law file that cannot be used."""
 
 
+class BadClaim(BenchError):
+    """A claim's file that cannot be used."""
+
+
 class BadMetric(BenchError):
     """A metric's file that cannot be used."""
 

@@ -9,7 +9,7 @@ from bench.base.on_first_use import pd
 from bench.cli.paragraphs import Paragraph, listed
 from bench.cli.screen import counted
 from bench.experiments.situations import HORIZON_S, mapped_laws
-from bench.findings.selection.advice import Advice, loop_of
+from bench.findings.selection.advice import Advice, list_unmapped, loop_of
 from bench.findings.selection.nearest import Outside
 from bench.findings.selection.regions import RULE, TIE, facts_of, find_overshooting, meets_but_overshoot
 from bench.findings.selection.words import NAMES
@@ -215,6 +215,8 @@ def _describe_evidence(advice: Advice) -> list[str]:
         )
     if advice.rows is not None:
         sentences.append(_describe_trials(advice))
+    if unmapped := list_unmapped():
+        sentences.append(_describe_unmapped(unmapped))
     if advice.replaced:
         why = "does not meet the requirements" if advice.lacks else f"is slower by more than {TIE:.0%}"
         sentences.append(f"In your situation {advice.replaced}, the law of the map, {why}.")
@@ -228,6 +230,12 @@ def _describe_trials(advice: Advice) -> str:
     which = f"All {every} laws" if advice.is_whole else f"{len(starts)} of {counted(every, 'law')}"
     more = "" if advice.is_whole else "; --run simulates all"
     return f"{which} were simulated now, from {starts.min():,} to {starts.max():,} of the same starts{more}."
+
+
+def _describe_unmapped(laws: list[str]) -> str:
+    """Name the laws that the map does not have yet, and say how to try them all the same."""
+    cure = "--run simulates every law, python -P -m bench.studies.situations makes a new map (an hour)"
+    return f"Not in the map yet: {listed(laws)}; {cure}."
 
 
 def describe_outside(number: Outside) -> str:

@@ -28,7 +28,7 @@ def COMMAND(folder: Path | None, criteria: bool, paper: str) -> None:
     """
     from bench.base.files import read_json
     from bench.experiments.tables.run import WHOLE, Run, shown_folder
-    from bench.findings.claims import MURPHY, at_gains, judge_possible
+    from bench.findings.claims import MURPHY, all_claims, at_gains, judge_possible
 
     run = Run(folder or shown_folder())
     run.table("episodes")  # refuses a run that has not finished
@@ -47,7 +47,8 @@ def COMMAND(folder: Path | None, criteria: bool, paper: str) -> None:
         print_paragraphs(_count(verdicts))
     if paper == MURPHY and at_gains.STORED.is_file():
         study = read_json(at_gains.STORED)
-        said = at_gains.describe(study, study["reference"])
+        ids = [one.id for one in all_claims(paper)]
+        said = at_gains.describe(study, study["reference"], ids)
         print_paragraphs(Paragraph("Steady?", (f"Of results/reference: {said}",)))
     if lacks:
         reasons = ((id, reason.removesuffix(f": {WHOLE}")) for id, reason in lacks.items())

@@ -20,6 +20,7 @@ from bench.experiments.slices import narrow, read_on_arms
 from bench.experiments.suites import AT_INVERSES, BY_WORD_ALONE, IDEAL_MOTORS, NOMINAL, SLOW
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
+from bench.law.inputs import Gains
 from tasks.arm_model import Arm
 
 MOST = {"native": 100, "reference": 2}
@@ -127,7 +128,7 @@ def _as_it_is(request: Request, laws: dict[str, Contender], arm: Arm) -> Iterato
     levels = []
     for kp, zeta in filter(None, (SLOW, arm.gains)):
         if kp != request.gains.kp:
-            levels.append({"kp": kp, "kv": 2.0 * zeta * math.sqrt(kp)})
+            levels.append(Gains(kp, 2.0 * zeta * math.sqrt(kp)))
     known = [name for name in tasks.variation_names(arm.name) if not tasks.variation(name).believed]
     motors = [name for name in known if name not in (NOMINAL, IDEAL_MOTORS)]
     for contender in contenders:
@@ -135,7 +136,7 @@ def _as_it_is(request: Request, laws: dict[str, Contender], arm: Arm) -> Iterato
             yield part, contender
         for part in read_on_arms(real["sizes_at_other_gains"]):
             for gains in levels:
-                yield replace(part, **gains), contender
+                yield replace(part, kp=gains.kp, kv=gains.kv), contender
             yield from _varied(part, contender, motors)
 
 

@@ -139,7 +139,7 @@ class Request:
         return bool(self.start_sets or self.engines)
 
 
-def integrators(word: str | None) -> dict[str, str]:
+def integrators(word: str | None) -> dict[str, Any]:
     """Return both integrators of a request: the named one, or the usual ones if none is named."""
     return {"integrator": word or WITHOUT, "contact_integrator": word or IN_CONTACT}
 
@@ -154,7 +154,7 @@ def checked(request: Request) -> Request:
     for word in (request.integrator, request.contact_integrator):
         check_word("integrator", word, list(INTEGRATORS))
     suite(request.suite)
-    words = {kind: tuple(dict.fromkeys(getattr(request, kind))) for kind in (*KINDS, "experiments")}
+    words: dict[str, Any] = {kind: tuple(dict.fromkeys(getattr(request, kind))) for kind in (*KINDS, "experiments")}
     once = dataclasses.replace(request, **words)
     _check_words(once)
     bodies = [word for word in once.tasks if word in tasks.names() and not tasks.is_for_arms(word)]

@@ -4,16 +4,20 @@ arms."""
 
 import json
 import math
+import re
 import shutil
 import signal
 from pathlib import Path
 
+import numpy as np
 import pyarrow.parquet as pq
 import pytest
+from scipy.integrate import solve_ivp
 from support.command_line import digest, python
 
 from bench.base.provenance import ROOT
 from bench.experiments.tables import store
+from bench.findings.claims import all_claims
 from bench.law.contenders.registry import FOLDERS, contenders
 from bench.law.inputs import PAPERS_GAINS
 from bench.law.kinds import HasLaw
@@ -49,14 +53,21 @@ DROPPED = {
 }
 """Files that are dropped into a copy of the tree, one of each kind that grows by a file: path -> text."""
 EXPERIMENT, PLANTED = "bench/experiments/dropped_experiment.py", "tasks/conditions/rate_bias.py"
-DROPPED_EXPERIMENT, ASKED_OF_AXIS = (
-    (SUPPORT / "planted_texts" / f"{name}.text").read_text()
-    for name in ("dropped_experiment", "asked_of_axis")
-)
+LAWS = "bench/law/contenders/regulators"
+TEXTS = {path.stem: path.read_text() for path in (SUPPORT / "planted_texts").glob("*.text")}
 RECIPE = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-PLANTED_AXIS = RECIPE.partition("**A perturbation, for example.**")[2].split("```")[1]
-PLANTED_AXIS = PLANTED_AXIS.removeprefix("python\n")
-"""The file of a perturbation that CONTRIBUTING.md shows."""
+
+
+def shown(subject: str, count: int) -> list[str]:
+    """Return the first blocks of code that CONTRIBUTING.md shows of a subject."""
+    blocks = RECIPE.partition(f"**{subject}, for example.**")[2].split("```")[1::2]
+    return [block.partition("\n")[2] for block in blocks[:count]]
+
+
+[PLANTED_AXIS] = shown("A perturbation", 1)
+FREE = f"C{len(all_claims()) + 1:02d}"
+PLANTED_CLAIM, CARD = (text.replace("C48", FREE) for text in shown("A claim", 2))
+REFERENCE = ROOT / "results" / "reference"
 
 INDEX = "# A book of one page\n\nIt cites {cite}`murphy1988`.\n"
 
@@ -112,6 +123,14 @@ from bench.cli import main
 
 sys.exit(main(["run", "--axis", "rate-bias", "--dry-run"]))
 """
+REFUSED_CLAIMS = """
+import sys
+
+sys.stderr = sys.stdout
+from bench.cli import main
+
+sys.exit(main(["claims", sys.argv[1]]))
+"""
 REFUSED_LEVEL = """
 import tasks
 from tasks.condition import condition_at
@@ -147,7 +166,7 @@ def test_planted_axis_acts_and_is_in_the_thresholds_and_the_book_without_another
     tmp_path,
 ):
     (copied(tmp_path) / PLANTED).write_text(PLANTED_AXIS)
-    *counted, mild, perturbed = ran(tmp_path, "-c", ASKED_OF_AXIS).splitlines()
+    *counted, mild, perturbed = ran(tmp_path, "-c", TEXTS["asked_of_axis"]).splitlines()
     assert counted == ["float64", "True ['rate-bias'] True"]
     # At rest the law's kp sin(angle) balances kv times the bias of 0.1 rad/s.
     angle = round(math.asin(PAPERS_GAINS.kv * 0.1 / PAPERS_GAINS.kp), 6)
@@ -169,6 +188,82 @@ def test_planted_axis_that_moves_the_goal_in_two_ways_is_refused(tmp_path):
     (copied(tmp_path) / PLANTED).write_text(planted.rstrip().removesuffix(")") + twice)
     refused = ran(tmp_path, "-c", REFUSED_LEVEL)
     assert "'rate-bias' sets rate_bias, reference_amplitude, of which more than one moves" in refused
+
+
+def test_planted_claim_is_judged_by_its_criterion_from_rows_without_another_file_touched(tmp_path):
+    before = sources(copied(tmp_path))
+    room = tmp_path / "bench" / "findings" / "claims"
+    (room / "spread.py").write_text(PLANTED_CLAIM)
+    (room / "spread.toml").write_text(CARD)
+    stored, alike, criterion = ran(tmp_path, "-c", TEXTS["asked_of_claim"], FREE, str(REFERENCE)).splitlines()
+    rows = pq.read_table(REFERENCE / "episodes.parquet").to_pandas()
+    rows = rows.query("task == 'free-body' and engine == 'ideal-rk4' and start_set == 'uniform'")
+    times = rows.query("regulator == 'rotation-matrix' and representation == ''")["settling_time_s"]
+    ratio = times.max() / times.min()
+    assert ratio > 1.5
+    assert stored == f"holds: The longest settling time is {ratio:.2f} times the shortest one."
+    assert alike == "does not hold: The longest settling time is 1.00 times the shortest one."
+    assert "at least 1.5 times the shortest one" in criterion
+    for name in ("reference", "gains", "verdicts"):
+        shutil.copytree(ROOT / "results" / name, tmp_path / "results" / name)
+    [told] = said(tmp_path, ("claims", "results/reference"))
+    assert re.search(rf"^{FREE} +Holds \({len(times):,} rows\): The settling time", told, re.MULTILINE)
+    assert re.search(rf"There are no verdicts of other runs yet on [^.]*\b{FREE}\.", " ".join(told.split()))
+    assert before.items() <= sources(tmp_path).items()
+
+
+def test_planted_claim_with_the_id_of_another_one_is_refused(tmp_path):
+    room = copied(tmp_path) / "bench" / "findings" / "claims"
+    (room / "spread.py").write_text(PLANTED_CLAIM.replace(FREE, "C01"))
+    (room / "spread.toml").write_text(CARD.replace(FREE, "C01"))
+    refused = ran(tmp_path, "-c", REFUSED_CLAIMS, str(REFERENCE), code=2)
+    assert "spread.py: another module has the claim C01, too (take the next free id)" in refused
+
+
+def test_planted_law_settles_as_its_equation_does_and_is_said_not_to_be_in_the_map(tmp_path):
+    before = sources(copied(tmp_path))
+    (tmp_path / LAWS / "soft_chord.py").write_text(TEXTS["soft_chord"].lstrip("\n"))
+    study = tmp_path / "results" / "situations"
+    study.mkdir(parents=True)
+    for name in ("situations.parquet", "provenance.json"):
+        shutil.copy(ROOT / "results" / "situations" / name, study)
+    unmapped, settled = ran(tmp_path, "-c", TEXTS["asked_of_law"]).splitlines()
+    assert re.match(r"Not in the map yet: [^;]*\bsoft-chord\b[^;]*; --run simulates every law", unmapped)
+    for angle, tick in json.loads(settled):
+        # MuJoCo's steps of 1 ms against the continuous equation.
+        assert 1e-3 * tick == pytest.approx(settle_softly(angle), rel=0.01)
+    assert before.items() <= sources(tmp_path).items()
+
+
+def settle_softly(angle: float) -> float:
+    """Return the time [s] after which the planted law stays within 2 % of an angle, by its equation about one axis."""
+
+    def rates(_, state):
+        chord = 2.0 * math.sin(state[0] / 2.0)
+        return state[1], -PAPERS_GAINS.kp * chord / math.hypot(1.0, chord) - PAPERS_GAINS.kv * state[1]
+
+    found = solve_ivp(rates, (0.0, 5.0), (angle, 0.0), rtol=1e-9, atol=1e-12, max_step=1e-3)
+    return found.t[np.abs(found.y[0]) > 0.02 * angle][-1]
+
+
+def test_planted_arm_has_its_own_reach_and_is_planned_without_another_file_touched(tmp_path):
+    before = sources(copied(tmp_path))
+    text = (ROOT / "tasks" / "arms" / "ur5e.xml").read_text(encoding="utf-8")
+    changes = {
+        'model="ur5e"': 'model="long-ur5e"',
+        'data="Universal Robots UR5e"': 'data="UR5e with a longer forearm"',
+        'name="wrist 1" pos="0 0 .3922"': 'name="wrist 1" pos="0 0 .4422"',
+    }
+    for old, new in changes.items():
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    (tmp_path / "tasks" / "arms" / "long_ur5e.xml").write_text(text, encoding="utf-8")
+    # Whatever the pose, a forearm that is longer by 5 cm moves the tool by 5 cm.
+    assert json.loads(ran(tmp_path, "-c", TEXTS["asked_of_arm"])) == pytest.approx(0.05, abs=1e-12)
+    [listed, planned] = said(tmp_path, ("list", "arms"), ("run", "--arm", "long-ur5e", "--dry-run"))
+    assert re.search(r"^long-ur5e +6 +UR5e with a longer forearm", listed, re.MULTILINE)
+    assert "long-ur5e" in planned
+    assert before.items() <= sources(tmp_path).items()
 
 
 @pytest.fixture(scope="module")
@@ -258,7 +353,7 @@ def test_dropped_files_are_run_and_shown_without_another_touched(tree, before):
 
 def test_dropped_experiment_is_planned_run_resumed_stored_and_compared_without_another_file_touched(tree):
     before = sources(tree)
-    (tree / EXPERIMENT).write_text(DROPPED_EXPERIMENT.lstrip("\n"))
+    (tree / EXPERIMENT).write_text(TEXTS["dropped_experiment"].lstrip("\n"))
     words = ("run", "--experiment", "dropped-experiment", "--workers", "1", "--out")
     ran(tree, "-m", "bench", *words, "results/killed", code=-signal.SIGKILL, KILLED_AT="rotation-vector")
     listed, planned, resumed, whole, compared = said(

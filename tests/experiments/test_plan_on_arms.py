@@ -106,6 +106,12 @@ def test_no_episode_is_planned_twice_whatever_the_gains(kp):
     assert len(set(keys)) == len(keys)
 
 
+def test_start_sets_of_the_free_body_and_of_arms_are_planned_together():
+    units = planning.make(Request("quick", EVERY_LAW, count=1, start_sets=("paper", "wrist"))).units
+    planned = {(unit.experiment, unit.selector) for unit in units if unit.selector}
+    assert planned == {("free-body", "paper"), ("arm", "wrist")}
+
+
 def test_full_suite_runs_every_compatible_combination():
     plan = planning.make(Request("full", EVERY_LAW, arms=ON_BOTH, count=1))
     for arm in ON_BOTH:

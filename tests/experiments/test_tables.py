@@ -4,6 +4,7 @@ import hashlib
 import json
 import re
 import shutil
+import tomllib
 
 import build
 import numpy as np
@@ -14,13 +15,15 @@ import pytest
 from scipy.stats import binom
 
 from bench.base.errors import BadResults
+from bench.base.provenance import ROOT
 from bench.cli.details import contact
 from bench.cli.details.episodes import outcome_table, summarize_laws, tabulate
 from bench.experiments.tables import statistics
-from bench.experiments.tables.data_package import described_folder
+from bench.experiments.tables.data_package import MOST_WORDS, described_folder
 from bench.experiments.tables.run import FREE_BODY, choose_rows, with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.law.control.registry import find_controller
+from tasks.verdict import CRASHED, OUTCOMES
 
 LAWS = pd.DataFrame(
     {
@@ -106,6 +109,39 @@ def test_descriptor_has_the_fields_and_types_of_the_files():
         assert [(field["name"], field["type"]) for field in one["schema"]["fields"]] == found, one["name"]
 
 
+def test_descriptor_has_a_title_and_the_version_of_the_project():
+    described = described_folder(REFERENCE)
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert described["version"] == project["version"]
+    assert described["title"]
+    for one in described["resources"]:
+        assert one["title"].lower().replace(" ", "-") == one["name"]
+        assert len(one["description"]) > 10
+        assert ".parquet: " not in one["description"]
+
+
+def test_descriptor_has_keys_that_name_each_row_once():
+    for one in described_folder(REFERENCE)["resources"]:
+        key = one["schema"]["primaryKey"]
+        rows = pd.read_parquet(REFERENCE / one["path"], columns=key)
+        assert len(rows) > 0
+        assert not rows.duplicated().any(), one["name"]
+        assert one["schema"]["missingValues"] == []  # the empty word in a key is a word
+
+
+def test_descriptor_lists_the_words_of_columns_that_have_few():
+    for one in described_folder(REFERENCE)["resources"]:
+        rows = pd.read_parquet(REFERENCE / one["path"])
+        for field in one["schema"]["fields"]:
+            words = set(rows[field["name"]].dropna().astype(str)) if field["type"] == "string" else set()
+            listed = field.get("constraints", {}).get("enum", [])
+            assert listed == (sorted(words) if len(words) <= MOST_WORDS else []), (one["name"], field["name"])
+    [episodes] = [one for one in described_folder(REFERENCE)["resources"] if one["name"] == "episodes"]
+    listed = {field["name"]: field.get("constraints") for field in episodes["schema"]["fields"]}
+    assert set(OUTCOMES[:CRASHED]) >= set(listed["outcome"]["enum"]) > {"settled", "stuck"}
+    assert listed["start_id"] is None
+
+
 def test_site_offers_the_descriptor_of_its_data(tmp_path):
     site, run = tmp_path / "site", tmp_path / "run"
     for folder in (site, run):
@@ -115,7 +151,7 @@ def test_site_offers_the_descriptor_of_its_data(tmp_path):
     build.offer_data(run, site)
     (resource,) = json.loads((site / "data" / "datapackage.json").read_text(encoding="utf-8"))["resources"]
     content = (site / "data" / resource["path"]).read_bytes()
-    assert resource["bytes"] == len(content)
+    assert "bytes" not in resource  # frictionless would find an error of it
     assert resource["hash"] == f"sha256:{hashlib.sha256(content).hexdigest()}"
 
 

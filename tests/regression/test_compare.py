@@ -241,6 +241,7 @@ def test_gate_catches_in_contact_what_no_rounding_decides(pair, pose, before, af
     [
         ("episodes", {"regulator": "a-new-law"}, 0),
         ("robustness", {"axis": "a-new-axis"}, 0),
+        ("episodes", {"arm": "a-new-arm"}, 0),
         ("episodes", {"start_id": ["new-1", "new-2", "new-3"]}, 3),
     ],
 )

@@ -54,6 +54,22 @@ def is_seen(driver, selector):
     return driver.execute_script(f"return document.querySelector('{selector}').checkVisibility()")
 
 
+def find_view_without_a_law(data):
+    """Return the first plane and rule that the page offers with a situation in which no law is advised."""
+    for plane, content in data["planes"].items():
+        for number, rule in enumerate(data["rules"]):
+            if any(point["verdicts"][number][0] < 0 for point in content["points"]):
+                return plane, rule
+    raise AssertionError("some law is advised in every situation of every view")
+
+
+def list_words_of_view(data, plane, rule):
+    """Return what the key of a view must have: each law that is advised there, and the words of none."""
+    number = data["rules"].index(rule)
+    laws = {point["verdicts"][number][0] for point in data["planes"][plane]["points"]}
+    return {data["laws"][law]["name"] if law >= 0 else data["none"] for law in laws}
+
+
 def test_drawing_is_whole_and_says_its_numbers(facts):
     assert_is_drawn(facts["map"].picture)
     assert facts["finding"] in facts["map"].alt
@@ -97,6 +113,15 @@ def test_key_of_the_drawing_has_each_law_and_the_places_without_one(facts, point
         assert (f": {families.word(law)}<" in svg) if law else (advice_map.NONE in svg)
 
 
+def test_key_of_a_drawing_says_that_no_law_meets_the_requirements_exactly_where_that_is_so():
+    views = [advice_map.list_points(advice_map.FIRST_PLANE, rule) for rule in advice_map.SHOWN]
+    is_bare = [any(point.law is None for point in view) for view in views]
+    assert set(is_bare) == {False, True}
+    for view, expected in zip(views, is_bare, strict=True):
+        drawing = advice_map.draw_plane(view, advice_map.letters_of(advice_map.advised_laws()))
+        assert (f">{advice_map.NONE}<" in html.unescape(drawing.wide)) == expected
+
+
 @pytest.mark.browser
 @pytest.mark.skipif(bool(screenshots.missing(ROOT / "README.md")), reason="no browser")
 def test_without_a_script_the_drawing_stands_alone(show):
@@ -107,8 +132,9 @@ def test_without_a_script_the_drawing_stands_alone(show):
 
 @pytest.mark.browser
 @pytest.mark.skipif(bool(screenshots.missing(ROOT / "README.md")), reason="no browser")
-def test_with_a_script_keys_read_situations_and_print_has_the_drawing(show):
+def test_with_a_script_keys_read_situations_and_print_has_the_drawing(show, data):
     from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import Select
 
     driver = show(SCRIPT)
     assert is_seen(driver, "#advice-map")
@@ -120,6 +146,15 @@ def test_with_a_script_keys_read_situations_and_print_has_the_drawing(show):
     assert said.startswith("zeta ")
     assert "99 % settle in" in said or advice_map.NONE in said
     assert "MRP with memory" in driver.find_element("id", "advice-keys").text
+    assert screenshots.console_errors(driver) == []
+    plane, rule = find_view_without_a_law(data)
+    Select(driver.find_element("id", "advice-plane")).select_by_value(plane)
+    Select(driver.find_element("id", "advice-rule")).select_by_value(rule)
+    texts = [key.text for key in driver.find_elements("css selector", "#advice-keys > span")]
+    words = list_words_of_view(data, plane, rule)
+    assert advice_map.NONE in words
+    assert len(texts) == len(words)
+    assert all(any(text.endswith(word) for text in texts) for word in words)
     assert screenshots.console_errors(driver) == []
     driver = show(SCRIPT, media="print")
     assert is_seen(driver, ".advice-drawn")

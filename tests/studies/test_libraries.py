@@ -10,10 +10,11 @@ from support.bits import EPS
 from support.planted import log as logarithm
 
 from bench.experiments.tables.store import read
+from bench.findings.libraries import SINGLE_RAD, STUDY
 from bench.studies.libraries import turns
-from bench.studies.libraries.__main__ import FOLDER, rows
+from bench.studies.libraries.__main__ import rows
 from bench.studies.libraries.asked import find, version_of
-from bench.studies.libraries.judge import COUNT_RAD, FORMS, KINDS, SINGLE_RAD, judge
+from bench.studies.libraries.judge import COUNT_RAD, FORMS, KINDS, judge
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
 from report.figures.libraries import libraries
 
@@ -137,7 +138,7 @@ def test_negative_quaternion_is_compared_with_the_positive():
 @pytest.mark.parametrize("library", [one for one in find().libraries if not one.is_restated])
 def test_committed_answers_are_what_the_library_says_here(library):
     """One version fails on the same numbers of rotations in three sets, in the same way."""
-    table = read(FOLDER, "libraries")
+    table = read(STUDY, "libraries")
     table = table[table["library"] == library.name].set_index(["function", "turn_set"])
     assert set(table.index.get_level_values("function")) == {one.name for one in library.functions}
     if table["version"].iloc[0] != version_of(library):

@@ -14,6 +14,7 @@ from support.states import rotation
 import tasks
 from bench.experiments import starts
 from bench.experiments.tables.store import read
+from bench.findings.real_time import GREATEST, PERIOD_S, STUDY
 from bench.findings.theory.late_torques import (
     find_alternating_limit,
     find_constant_limit,
@@ -22,11 +23,9 @@ from bench.findings.theory.late_torques import (
 )
 from bench.law.inputs import PAPERS_GAINS
 from bench.studies.real_time.__main__ import (
-    GREATEST,
     LAST,
     LAWS,
     STARTS,
-    STORED,
     beside_home,
     compute_delays,
     compute_parts,
@@ -37,7 +36,6 @@ from bench.studies.real_time.loop import (
     EIGEN,
     NEVER,
     PERIOD_NS,
-    PERIOD_S,
     SLOTS,
     SUBSTEPS,
     Loop,
@@ -235,7 +233,7 @@ def test_delay_counts_the_torque_of_a_later_state_where_a_state_has_none():
 
 def stored():
     """Return the committed rows."""
-    return read(STORED.parent, "real_time").astype({"arm": str, "regulator": str})
+    return read(STUDY, "real_time").astype({"arm": str, "regulator": str})
 
 
 def test_study_has_every_arm_law_and_number_of_substeps():

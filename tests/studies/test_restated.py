@@ -6,10 +6,11 @@ import pinocchio
 import pytest
 
 from bench.base.files import read_json
+from bench.findings.libraries import RESTATED
 from bench.law.contenders.registry import contenders
 from bench.studies.restated import __main__ as study
 
-ROWS = {row["name"]: row for row in read_json(study.STORED)["controllers"]}
+ROWS = {row["name"]: row for row in read_json(RESTATED)["controllers"]}
 LIMIT = 1e-12
 EXACT = mpmath.mp.clone()
 EXACT.dps = 40

@@ -1,4 +1,4 @@
-"""The paper's claims, C01 to C47: each sentence with a criterion fixed before the results, and its verdict.
+"""The paper's claims, from C01: each sentence with a criterion fixed before the results, and its verdict.
 
 A module holds measurements alone, and says first of which claims; the TOML file of the same name holds their texts.
 The claims of another paper stand in a package here (`PAPERS`): the same rules judge them, and no count of the claims of
@@ -14,7 +14,7 @@ from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
-from bench.base.errors import NoEvidence, NoTable
+from bench.base.errors import BadClaim, NoEvidence, NoTable
 from bench.experiments.tables.run import MAIN_ENGINE, Run, shown_folder
 from bench.findings.claims.tables import CHECK_ENGINES
 from bench.findings.claims.verdict import Claim, Evidence, Verdict, Word, decide, verb_phrase
@@ -35,11 +35,17 @@ PAPERS = {MURPHY: __name__, "lopez-slotine-2024": f"{__name__}.lopez_slotine_202
 
 @functools.cache
 def all_claims(paper: str = MURPHY) -> tuple[Claim, ...]:
-    """Every claim of a paper, in the order of the ids."""
+    """Return every claim of a paper, in the order of the ids; BadClaim: two of them have one id."""
     package = importlib.import_module(PAPERS[paper])
     files = [info.name for info in pkgutil.iter_modules(package.__path__) if not info.ispkg]
     modules = [importlib.import_module(f"{package.__name__}.{name}") for name in files]
-    found = {one.id: one for module in modules for one in vars(module).values() if isinstance(one, Claim)}
+    found: dict[str, Claim] = {}
+    for module in modules:
+        for one in vars(module).values():
+            if not isinstance(one, Claim):
+                continue
+            if found.setdefault(one.id, one) is not one:
+                raise BadClaim(f"{module.__file__}: another module has the claim {one.id}, too (take the next free id)")
     return tuple(found[id] for id in sorted(found))
 
 

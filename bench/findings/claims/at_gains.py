@@ -6,7 +6,7 @@ The study asks which claims get another word with other draws, half the step, or
 import contextlib
 import functools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -172,17 +172,19 @@ def turned(runs: dict[str, dict], reference: dict[str, str]) -> dict[str, dict[s
     return dict(sorted(found.items()))
 
 
-def describe(study: dict, words: dict[str, str]) -> str:
+def describe(study: dict, words: dict[str, str], ids: Iterable[str] = ()) -> str:
     """Return what the study of seeds, of half the step and of other gains found, in a sentence or two.
 
-    Its `stale` names the claims whose criteria have changed since: of these it says nothing.
+    Its `stale` names the claims whose criteria have changed since: of these it says nothing. Claims of `ids` that it
+    does not know are newer than it, and are named.
     """
     runs, stale = study["runs"], study.get("stale", [])
     seeds = sum(name != HALF_STEP for name in runs)
     other = {id: found for id, found in turned(runs, words).items() if id not in stale}
     found = "every verdict that was tested stays the same" if not other else f"these change: {', '.join(other)}"
     step = ", and with half the time step" if HALF_STEP in runs else ""
-    return f"With each of {seeds} other random seeds{step}, {found}.{_lacking(stale)}{by_gains(study, words)}"
+    lacking = _lacking(stale) + _describe_new([id for id in ids if id not in study["reference"]])
+    return f"With each of {seeds} other random seeds{step}, {found}.{lacking}{by_gains(study, words)}"
 
 
 def _lacking(stale: list[str]) -> str:
@@ -191,6 +193,13 @@ def _lacking(stale: list[str]) -> str:
         return ""
     names = ", ".join(stale)
     return f" This study did not test the claims {names}, because we wrote their present criteria later."
+
+
+def _describe_new(ids: list[str]) -> str:
+    """Name the claims that are newer than the study."""
+    if not ids:
+        return ""
+    return f" There are no verdicts of other runs yet on {join_words(ids)}."
 
 
 def by_gains(study: dict, words: dict[str, str]) -> str:

@@ -42,6 +42,7 @@ from bench.findings.selection.regions import (
     facts_of,
     find_regions,
     meets,
+    read_map,
     with_words,
 )
 from bench.findings.theory.bang_bang import angle_of_share, least_time
@@ -292,6 +293,12 @@ def advise(
         replaced=preferred if preferred != law else None,
         lacks=preferred not in published,
     )
+
+
+def list_unmapped(folder: Path = STUDY) -> list[str]:
+    """Return the laws that a map does not have yet, because they are newer than the study that made it."""
+    mapped = set(read_map(folder)["contender"].astype(str))
+    return [law.name for law in mapped_laws() if law.name not in mapped]
 
 
 def shortlist(nearest: MapAnswer, rule: Rule, folder: Path = STUDY) -> tuple[str, ...]:

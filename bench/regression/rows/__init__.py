@@ -23,7 +23,7 @@ def compare(base: Path, head: Path) -> list[str]:
 
 
 def _drop_additions(differences: list[Difference], base: Path) -> list[Difference]:
-    """Leave out new rows of a law or a perturbation that base has nowhere."""
+    """Leave out new rows of a law, a perturbation or an arm that base has nowhere."""
     frames = [read(base, one) for one in known_tables().values()]
     known = {word for rows in frames for name in NAMES & {*rows.columns} for word in rows[name].astype(str)} | {""}
     return [one for one in differences if one.kind != NEW or {one.row.get(name, "") for name in NAMES} <= known]

@@ -11,7 +11,7 @@ from bench.experiments.columns import Table
 
 MISSING, NEW, TWICE, COLUMN, CHANGED, JUDGE = "missing", "new", "twice", "column", "changed", "judge"
 SHOWN = 10  # lines of one kind
-NAMES = {"regulator", "law", "controller", "shipped", "axis"}  # columns that name a law or a perturbation
+NAMES = {"regulator", "law", "controller", "shipped", "axis", "arm"}  # they name a law, a perturbation or an arm
 
 
 class Difference(NamedTuple):

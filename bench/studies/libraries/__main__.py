@@ -14,18 +14,16 @@ import pandas as pd
 
 from bench.base.files import read_json, write_json
 from bench.base.provenance import cpu_name
-from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read, write_table
+from bench.findings.libraries import SINGLE_RAD, STUDY
 from bench.studies.libraries.asked import find, version_of
 from bench.studies.libraries.closed_loop import rows_of
-from bench.studies.libraries.judge import COUNT_RAD, SINGLE_RAD, judge
+from bench.studies.libraries.judge import COUNT_RAD, judge
 from bench.studies.libraries.library import ANGLES, Library
 from bench.studies.libraries.turns import TurnSet, every_set
 from bench.studies.libraries.upstream import check_patches
 from bench.studies.libraries.verdict import verdict
 from bench.studies.study import make_parser
-
-FOLDER = RESULTS / "libraries"
 
 
 def main() -> None:
@@ -111,27 +109,27 @@ def origin(library: Library) -> dict:
 def keep(tables: dict[str, pd.DataFrame], about: dict[str, dict]) -> None:
     """Write the tables and provenance.json, with the earlier rows of libraries that were not asked."""
     for name, new in tables.items():
-        if (FOLDER / f"{name}.parquet").is_file():
-            earlier = read(FOLDER, name)
+        if (STUDY / f"{name}.parquet").is_file():
+            earlier = read(STUDY, name)
             earlier = earlier.astype(dict.fromkeys(earlier.select_dtypes("category"), str))
             if name == "verdicts":
                 new = marked(new, earlier)
             new = pd.concat([earlier[~earlier["library"].isin(new["library"])], new])
         new = new.sort_values("library", key=lambda names: names.str.lower(), kind="stable", ignore_index=True)
-        write_table(FOLDER / f"{name}.parquet", new, name)
+        write_table(STUDY / f"{name}.parquet", new, name)
         print(f"wrote {name}: {len(new)} rows, {new['library'].nunique()} libraries")
-    if (FOLDER / "provenance.json").is_file():
-        about = read_json(FOLDER / "provenance.json")["libraries"] | about
-    write_json(FOLDER / "provenance.json", {"libraries": about})
+    if (STUDY / "provenance.json").is_file():
+        about = read_json(STUDY / "provenance.json")["libraries"] | about
+    write_json(STUDY / "provenance.json", {"libraries": about})
 
 
 def keep_patches(checked: dict[str, dict]) -> None:
     """Print which patches are fixed in the installed libraries; write patches.json, with what was checked earlier."""
-    kept = (read_json(FOLDER / "patches.json") if (FOLDER / "patches.json").is_file() else {}) | checked
+    kept = (read_json(STUDY / "patches.json") if (STUDY / "patches.json").is_file() else {}) | checked
     for patch in sorted(path.stem for path in Path(__file__).parent.glob("patches/*.patch")):
         text = "not checked: needs its library, or the source that its test runs on"
         print(f"patch {patch}:", "{state} in {version}".format_map(kept[patch]) if patch in kept else text)
-    write_json(FOLDER / "patches.json", kept)
+    write_json(STUDY / "patches.json", kept)
 
 
 def marked(new: pd.DataFrame, earlier: pd.DataFrame) -> pd.DataFrame:

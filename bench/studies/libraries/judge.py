@@ -14,18 +14,15 @@ import numpy as np
 
 from bench.audit.convention import FORMS as SIZED
 from bench.audit.examined import COUNT_RAD as COUNT_RAD
+from bench.findings.libraries import WRONG_AXIS_RAD
 from bench.law.contenders.representations.zyx_euler import to_matrix
 from bench.studies.libraries.library import QUATERNION, Function, answer, quiet
 
 if TYPE_CHECKING:
     from bench.studies.libraries.turns import Turn, TurnSet
 
-SINGLE_RAD = 4.0 * 2.0**-22
-"""COUNT_RAD for a library of single precision: four units in the last place of pi, 9.5e-7 rad."""
 ZERO_SHARE = 1e-6
 """An answer smaller than this times the angle counts as zero."""
-WRONG_AXIS_RAD = 0.1
-"""Angle between an answer and the axis beyond which the answer does not point along it: 6 degrees."""
 
 
 class Form(NamedTuple):

@@ -29,14 +29,13 @@ from bench.experiments import starts
 from bench.experiments.experiment import Unit, rows_of
 from bench.experiments.request import Request
 from bench.experiments.suites import NOMINAL
-from bench.experiments.tables.schema import RESULTS
+from bench.findings.real_time import GREATEST, HALVINGS, PERIOD_S, STUDY
 from bench.findings.theory.late_torques import find_greatest_kv
 from bench.law.inputs import PAPERS_GAINS, Gains
 from bench.studies.real_time.loop import (
     NEVER,
     NS,
     PERIOD_NS,
-    PERIOD_S,
     SUBSTEPS,
     TASK,
     Course,
@@ -50,7 +49,7 @@ from tasks.rotations import multiply
 from tasks.rules import RULES
 from tasks.verdict import first_watch, watched
 
-STORED = RESULTS / "real-time" / "real_time.parquet"
+STORED = STUDY / "real_time.parquet"
 LAWS = ("rotation-matrix", "late-braking")
 STARTS = 12
 """Starts for an arm and a law; each runs with the next of SUBSTEPS."""
@@ -58,9 +57,6 @@ HORIZON_S = 2.5
 EDGE_RAD = 1e-9
 EDGE_S = 1.0
 """Length of the episodes that tell whether gains are stable."""
-GREATEST = 4.0
-"""Kv T up to which a limit is looked for; the greatest with any constant delay is 3.12."""
-HALVINGS = 9
 LAST = 0.1
 """Part of an episode, its last, in which the error of a stable loop is never that of its start."""
 REPLAYED = 3

@@ -21,12 +21,12 @@ import numpy as np
 import tasks
 from bench.export.language import find_language
 from bench.export.subject import find_subject
+from bench.findings.real_time import PERIOD_S
 from bench.law.inputs import Gains
 from tasks.base import Start
 from tasks.truth import haversine
 
 TASK = "arm-regulation"
-PERIOD_S = 1e-3
 PERIOD_NS = 1_000_000
 NS = 1e-9
 SUBSTEPS = (8, 16, 64)

@@ -24,12 +24,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from bench.base.files import read_json, write_json
-from bench.experiments.tables.schema import RESULTS
+from bench.findings.libraries import RESTATED
 from bench.law.contenders.registry import contenders
 from bench.law.shipped import AsShipped
 from bench.studies.study import describe_study, make_parser
 
-STORED = RESULTS / "libraries" / "restated.json"
 SOURCES = Path(__file__).parent / "sources"
 PAIRS = 10_000
 KEPT = np.arange(0, PAIRS, PAIRS // 20)
@@ -143,11 +142,11 @@ def main() -> None:
     asked = parser.parse_args()
     files = {source.stem.replace("_", "-"): source for source in SOURCES.iterdir()}
     options = [f"-I{one}" for one in (SOURCES, *asked.include)]
-    earlier = read_json(STORED)["controllers"]
+    earlier = read_json(RESTATED)["controllers"]
     rows = [
         kept(compare(one, files[name], asked.folder, options), earlier) for name, one in contenders("shipped").items()
     ]
-    write_json(STORED, {"controllers": rows, "provenance": describe_study("restated FOLDER")})
+    write_json(RESTATED, {"controllers": rows, "provenance": describe_study("restated FOLDER")})
 
 
 if __name__ == "__main__":

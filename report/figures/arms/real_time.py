@@ -7,17 +7,14 @@ import pandas as pd
 
 from bench.base.files import read_json
 from bench.experiments.tables.run import Run
-from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
 from bench.findings.amounts import count_of, join_words
+from bench.findings.real_time import GREATEST, HALVINGS, PERIOD_S, STUDY
 from bench.findings.theory.late_torques import find_alternating_limit, find_constant_limit
-from bench.studies.real_time.__main__ import GREATEST, HALVINGS
-from bench.studies.real_time.loop import PERIOD_S
 from report.figures.arms import arm_rows
 from report.figures.kit import families, html, style
 from report.figures.kit.inline import Drawing, responsive_picture
 
-STUDY = RESULTS / "real-time"
 LOOPS = html.PageTable(
     "Arm | Law | Substeps in a period | Episodes | Episodes that settle in real time "
     "| Episodes that settle in simulation | Episodes with the same outcome in real time and in simulation "

@@ -11,6 +11,7 @@ from bench.findings import why
 from bench.findings.amounts import count_of
 from bench.findings.claims.tables import share
 from bench.findings.proofs.certificate import read_certificates
+from bench.findings.selection.advice import list_unmapped
 from bench.findings.selection.regions import find_regions, list_ours
 from bench.findings.selection.unbeaten import (
     SPOKEN,
@@ -197,6 +198,8 @@ def say_share(value: float) -> str:
 
 def advised(law: str) -> str:
     """Return in which share of the drawn situations a law is advised, and in which no law of two sets is faster."""
+    if law in list_unmapped():
+        return "We have not simulated this law in the situations of the map yet."
     region = next((region for region in find_regions() if region.law == law), None)
     is_ours = law in list_ours()
     if region is None and not is_ours:

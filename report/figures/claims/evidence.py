@@ -40,7 +40,7 @@ def facts(run: Run) -> dict:
         "n_computed": sum(one.check is not None for one in ERRATA),
         "n_read": sum(one.check is None for one in ERRATA),
         "misprints": typeset(" ".join(MISPRINTS.split())),
-        "steady": at_gains.describe(study, study["reference"]),
+        "steady": at_gains.describe(study, study["reference"], [verdict.id for verdict in every]),
         "sections": html.Html("".join(section(verdict, run) for verdict in every)),
         "untestable": SENTENCES((one["section"], f"“{prose(one['quote'])}”", prose(one["why"])) for one in UNTESTABLE),
         "slips": SLIPS(map(describe_slip, sorted(ERRATA, key=lambda one: one.check is None))),

@@ -10,10 +10,10 @@ from bench.base.files import read_json
 from bench.experiments.shipped import BENT_DEG, FELT_RAD
 from bench.experiments.tables.run import Run
 from bench.findings.amounts import count, count_of
+from bench.findings.libraries import RESTATED
 from bench.findings.remedy import KEEP, fix_of
 from bench.law.contenders.registry import contenders
 from bench.law.shipped import POSITION, TORQUE, VELOCITY, AsShipped
-from bench.studies.restated.__main__ import STORED
 from report.figures.kit import html
 from report.figures.kit.page import in_run
 from report.figures.kit.spelling import power
@@ -70,7 +70,7 @@ def facts(run: Run) -> dict:
 
 def held() -> dict:
     """Return what the study found that held each controller to its source."""
-    restated = read_json(STORED)["controllers"]
+    restated = read_json(RESTATED)["controllers"]
     built = [one for one in restated if "difference" in one]
     fixes = {name: fix_of(name) for name in contenders("shipped")}
     rises = [name for name, fix in fixes.items() if fix.after > 1.01 * fix.before]

@@ -11,19 +11,18 @@ from typing import Any
 
 import pandas as pd
 
+from bench.audit.examined import COUNT_RAD
 from bench.base.files import read_json
 from bench.experiments.tables.run import Run
-from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
 from bench.findings.amounts import capitalize, count_of, join_words
+from bench.findings.libraries import SINGLE_RAD, STUDY, WRONG_AXIS_RAD
 from bench.findings.remedy import KEEP, fix_of
-from bench.studies.libraries.judge import COUNT_RAD, FORMS, SINGLE_RAD, WRONG_AXIS_RAD
 from report.figures.kit import html, spelling
 from report.figures.kit.page import in_run
 from report.figures.kit.spelling import power
 from report.figures.libraries import as_shipped
 
-FOLDER = RESULTS / "libraries"
 VECTOR, SINE, ANGLES = "rotation-vector", "sine", "z-y-x"
 
 NO_NUMBER, ZERO, LONG_WAY, MISALIGNED, SHEET, DIGITS = "no-number", "zero", "long-way", "misaligned", "sheet", "digits"
@@ -47,13 +46,13 @@ ORDER = (ZERO, SHEET, LONG_WAY, MISALIGNED, DIGITS)
 @functools.cache
 def table(name: str = "libraries") -> pd.DataFrame:
     """Return every row of a table of the study, words as words."""
-    found = read(FOLDER, name)
+    found = read(STUDY, name)
     return found.astype(dict.fromkeys(found.select_dtypes("category"), str))
 
 
 def origins() -> dict[str, dict[str, str]]:
     """Return by library its version and the packages that it was tested with."""
-    return read_json(FOLDER / "provenance.json")["libraries"]
+    return read_json(STUDY / "provenance.json")["libraries"]
 
 
 def functions(rows: pd.DataFrame) -> pd.DataFrame:
@@ -76,7 +75,8 @@ def objections(own: pd.DataFrame) -> dict[str, str]:
     Every function is judged by the turn that its answer stands for; that angles are no error along the axis is no fault
     of the function. This is the only verdict on a function that the page has.
     """
-    has_axis, at = FORMS[own["form"].iloc[0]].size is not None, own[own["distance_rad"] == 0.0]
+    has_axis = own["form"].iloc[0] != ANGLES
+    at = own[own["distance_rad"] == 0.0]
     found = {}
     silent = own["raised"].sum() + own["not_finite"].sum()
     if silent:
