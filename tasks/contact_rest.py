@@ -26,6 +26,10 @@ HORIZON_S = 12.0
 """Horizon of tasks that have an end [s]. A tool on the paper's gains takes some 2 s to lie down; one whose coordinates
 let a sixth of the moment through, six times that."""
 
+WINDOW_S = 2.5
+"""From the first touch on, over which errors are averaged [s]: an average that went on as long as an episode does would
+say when it ended."""
+
 
 class RestNumbers(NamedTuple):
     """The rule at a control period: first tick at which rest counts, ticks on end (0: never), squared bounds.

@@ -85,8 +85,8 @@ def answer_request(request: dict[str, Any], line: Line) -> bytes:
     # Of modules whose names the fork gives free.
     every_fault()
     board = Board(line)
-    limit_s = request["limit_s"]
-    limits = TimeLimits(limit_s * (os.cpu_count() or 1), limit_s)
+    processor_s, _ = request["limits"]
+    limits = TimeLimits(processor_s, request["limit_s"])
     try:
         return answer_in_fork(lambda: audit_here(request, board), limits, line, board.look)
     except NoAnswer as error:

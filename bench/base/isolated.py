@@ -406,12 +406,11 @@ def answer_in_fork(
         look()
         return has_ended()
 
-    answer = b""
-    is_late = False
+    answer: bytes | None = b""
     try:
         answer = ours.receive(limits.wall_s, has_ended=has_no_more_to_say)
     except TimeoutError:
-        is_late = True
+        answer = None
     except (EOFError, OSError):
         deadline = time.monotonic() + ENDING_S
         # So that its exit code is its own.
@@ -424,7 +423,7 @@ def answer_in_fork(
         has_ended(options=0)
     if answer:
         return read_answer(answer)
-    if is_late:
+    if answer is None:
         raise NoAnswer(HUNG, describe_wait(limits.wall_s))
     [(code, used_s)] = endings
     if code in (-signal.SIGXCPU, -signal.SIGKILL) and used_s >= limits.processor_s:
@@ -456,10 +455,11 @@ def _list_carriers(entry: bytes) -> list[int]:
     """Return the other processes with the entry in their environment; ended ones show none."""
     carriers = []
     for environment in PROCESSES.glob("[0-9]*/environ"):
+        pid = int(environment.parent.name)
         with contextlib.suppress(OSError):
-            if entry in environment.read_bytes().split(b"\0"):
-                carriers.append(int(environment.parent.name))
-    return [pid for pid in carriers if pid != os.getpid()]
+            if pid != os.getpid() and entry in environment.read_bytes().split(b"\0"):
+                carriers.append(pid)
+    return carriers
 
 
 def limit_processor_time(processor_s: float, is_last: bool = False) -> None:

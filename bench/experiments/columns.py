@@ -10,6 +10,7 @@ CAPITALS stand for columns that tables share (shared.toml), in a key too, or for
 
 from __future__ import annotations
 
+import functools
 import json
 import tomllib
 from collections.abc import Callable, Iterable
@@ -102,10 +103,25 @@ CONTENDER_KEY = tuple(one.name for one in SHARED["CONTENDER"])
 
 def read_table(file: str, name: str, **more: Callable[[], list[Column]]) -> Table:
     """Return the table that <name>.toml beside a module's file declares; more: the groups of columns that it adds."""
-    words = tomllib.loads(Path(file).with_name(f"{name}.toml").read_text(encoding="utf-8"))
-    groups = {group: lambda columns=columns: columns for group, columns in SHARED.items()} | more
-    key = [one for word in words["key"] for one in (CONTENDER_KEY if word == "CONTENDER" else (word,))]
-    return Table(name, lambda: read_columns(words["columns"], groups), tuple(key), words["about"])
+    return read_declared(Path(file).with_name(f"{name}.toml"), more)
+
+
+def read_declared(path: Path, more: dict[str, Callable[[], list[Column]]]) -> Table:
+    """Return the table that a TOML file declares, without those groups of columns that are neither shared nor in more.
+
+    Such groups are what modules add: metrics and operations, all of them numbers.
+    """
+    words = tomllib.loads(path.read_text(encoding="utf-8"))
+    groups: dict[str, Callable[[], list[Column]]] = {}
+    for name in words["columns"]:
+        if name.isupper():
+            groups[name] = functools.partial(SHARED.get, name, [])
+    groups |= more
+    key: list[str] = []
+    for word in words["key"]:
+        key += CONTENDER_KEY if word == "CONTENDER" else (word,)
+    columns = functools.partial(read_columns, words["columns"], groups)
+    return Table(path.stem, columns, tuple(key), words["about"])
 
 
 def of_metrics(metrics: Iterable[Any], kind: str = NUMBER) -> list[Column]:

@@ -12,7 +12,7 @@ import tasks
 from bench.base.on_first_use import pd
 from bench.engines.curve import ARM_NUMBERS, NUMBERS, blank_curves
 from bench.experiments import free_body
-from bench.experiments.columns import SHARED, Column, read_table
+from bench.experiments.columns import read_table
 from bench.experiments.episode_rows import judged_columns
 from bench.experiments.episodes import prepare, simulate
 from bench.experiments.experiment import OF_LAWS, Experiment, Unit, user_laws_last
@@ -31,12 +31,7 @@ CURVE_S = 0.05
 """CPU seconds a curve; most of it goes into its rows."""
 
 
-def endings() -> list[Column]:
-    """Return the columns that say how the episode of a curve ended."""
-    return [one._replace(meaning=f"of the episode: {one.meaning}; none on an arm") for one in SHARED["JUDGED"]]
-
-
-TABLE = read_table(__file__, "traces", ENDING=endings)
+TABLE = read_table(__file__, "traces")
 
 
 def laws(request: Request) -> list[Contender]:

@@ -13,14 +13,12 @@ import numpy as np
 from bench.engines.metrics.contact_metric import Pose, Response, once_a_pose
 from bench.engines.metrics.measured_compliance import in_free_space
 from tasks.contact import Trial
+from tasks.contact_rest import WINDOW_S
 from tasks.domains import peg_in_hole
 from tasks.rotations import columns
 from tasks.rules import RULES, ticks
 
 NOTHING = np.empty((0, 3))
-WINDOW_S = 2.5
-"""From the first touch on, over which errors are averaged [s]: an average that went on as long as an episode does would
-say when it ended."""
 
 
 @once_a_pose

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from bench.experiments import arm as on_arms
 from bench.experiments.experiment import Experiment, Unit
+from bench.experiments.probe_values.arms import SIX_JOINTS
 from bench.experiments.probes import (
     arms,
     commands,
@@ -57,7 +58,7 @@ PROBES = {
     "arm-curve": Probe(arms.measure_curves, 3.0, ()),
     "arm-pole": Probe(arms.measure_poles, 2.0, ()),
     "arm-acceleration": Probe(
-        arms.measure_accelerations, 0.1, arms.SIX_JOINTS
+        arms.measure_accelerations, 0.1, SIX_JOINTS
     ),
     "contact-cost": Probe(arms.measure_contact_costs, 5.0),
     "error": Probe(commands.measure_errors, 1.0),

@@ -16,6 +16,15 @@ from bench.experiments import traces
 from bench.experiments.episodes import rows_from
 from bench.experiments.experiment import Unit
 from bench.experiments.kept_rows import kept
+from bench.experiments.probe_values.arms import (
+    BY_EULER,
+    CURVES,
+    INVERSES,
+    OFF,
+    ON_MATRIX,
+    STATES,
+    TASK,
+)
 from bench.experiments.probes.number import Number
 from bench.experiments.request import Request
 from bench.experiments.suites import IDEAL_MOTORS, ON_ARM
@@ -24,30 +33,15 @@ from bench.law.control.contact_controller import PAPERS_FORM
 from bench.law.inputs import Gains
 from bench.law.so3 import Rotation, from_quaternion
 
-TASK, CLEAR = "arm-regulation", "clear"
-BY_EULER = "feedback-linearized/zyx-euler@analytic"
-ON_MATRIX = "rotation-matrix@geometric"
-"""(3.7), and (2.2) with the law on R; the inverse goes by the number of joints."""
-
-INVERSES = {6: "solve", 7: "pseudo-inverse"}
-"""The inverse of the claims, by number of joints: what J^-1 means on six, and its least-squares heir on seven."""
-
-CURVES = 8
-"""Clear starts whose curves are computed at both steps."""
+CLEAR = "clear"
 
 BENDS = ("bend_0", "bend_1", "bend_2")
 
-SIX_JOINTS = ("puma560", "ur5e")
-"""Arms of the paper's six joints."""
-
-STATES, AROUND_RAD = 20, 0.3
-"""Random states of each, within so far of home, where J has an inverse."""
+AROUND_RAD = 0.3
+"""Random states are within so far of home, where J has an inverse."""
 
 STEP_S = 1e-5
 """Differences of velocities of order 1 err by its square and by rounding over it, both under 1e-8."""
-
-OFF = "mass-1.30"
-"""The plant that the model does not describe."""
 
 IN_CONTACT = ("hybrid-base", "hybrid/zyx-euler")
 

@@ -15,6 +15,10 @@ import numpy as np
 
 import tasks
 from bench.experiments.experiment import Unit
+from bench.experiments.probe_values.commands import (
+    EXACT_RAD,
+    GROWTH_DECADES,
+)
 from bench.experiments.probes.coordinates import euler_B
 from bench.experiments.probes.number import Number, in_coordinates
 from bench.experiments.probes.turns import FEEDBACK, MATRIX, about
@@ -41,10 +45,6 @@ START_SETS = (
 UNIFORM = 1000
 """Uniform starts, as the quick suite and the default one have."""
 
-EXACT_RAD = 1e-13
-"""Between the nearest of the near starts (1e-12 rad from a pole or from 180°) and what rounding leaves of an exact
-one (4e-16 rad)."""
-
 AWAY_RAD = 1e-3
 """The search for a zero of e stays so far from the goal and from 180°."""
 
@@ -60,7 +60,6 @@ PAIRS = ((1.0, -0.5), (-2.0, 1.0))
 SIDES = ((0.0, 0.0), (0.4, 0.3), (-0.9, -1.5))
 """beta and the other angle at the jumps [rad], as in the start sets."""
 
-GROWTH_DECADES = (3, 8)
 JUMP_RAD = 1e-9
 
 

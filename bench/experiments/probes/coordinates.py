@@ -14,6 +14,18 @@ import numpy as np
 
 from bench.base.on_first_use import Turn
 from bench.experiments.experiment import Unit
+from bench.experiments.probe_values.coordinates import (
+    ABOUT_Y,
+    ANGLE_AND_AXIS,
+    AT_POLE,
+    BESIDE,
+    DECADES,
+    FORM_DECADES,
+    PAIRS,
+    POLE_DECADES,
+    TURNS,
+    TURNS_ELSEWHERE,
+)
 from bench.experiments.probes.number import Number, in_coordinates
 from bench.experiments.request import Request
 from bench.law.contenders.registry import contenders, representation
@@ -22,19 +34,8 @@ from bench.law.so3 import Rotation, from_quaternion
 from tasks.haar import axes
 
 ZYX = "zyx-euler"
-HALF = math.sqrt(0.5)
-ABOUT_Y = {
-    180: (0.0, 0.0, 1.0, 0.0),
-    90: (HALF, 0.0, HALF, 0.0),
-    -90: (HALF, 0.0, -HALF, 0.0),
-}
-"""Quaternions of rotations about Y by so many degrees: the last two are the poles of Z-Y-X angles."""
-
-ANGLE_AND_AXIS = "angle and axis"
-"""The angle, and the polar and azimuth angle of the axis: coordinates that no controller here uses."""
-
 NEAR_ZERO = ("zyz-euler", "rotation-vector", ANGLE_AND_AXIS)
-DIRECTIONS, DECADES = 12, (1, 6)
+DIRECTIONS = 12
 COMPLEX_STEP = 1e-30
 """Step of the complex-step derivative, which has no cancellation: any tiny number does."""
 
@@ -44,16 +45,13 @@ SHIFT_RAD = 0.7
 GRID = 8
 """Values of alpha, and of gamma, at each pole."""
 
-TURNS, TURNS_ELSEWHERE, TURNS_OF_ANGLES = 2000, 200, 200
-"""Haar-random orientations at which work is balanced, of every other representation, and of the angles' axes."""
+TURNS_OF_ANGLES = 200
+"""Haar-random orientations at which the angles' axes are compared."""
 
 SEED = 0
 """Seed of these orientations, in every run."""
 
-POLE_DECADES, BESIDE = 12, 20
-"""Distances from each pole down to 1e-12 rad, and orientations at each."""
-
-AT_RANDOM, NEAR_POLE, AT_POLE = "random", "near", "exact"
+AT_RANDOM, NEAR_POLE = "random", "near"
 
 STEP = 2.0 ** (-52 / 3)
 """rad; of a central difference, whose truncation and rounding then are both about its square."""
@@ -67,8 +65,6 @@ FORMS = {
     "zyz-euler": 0.0,
 }
 """Forms of Euler angles, and the middle angle at which each is degenerate [rad]."""
-
-FORM_DECADES, PAIRS = 6, 12
 
 LINEAR_STEP = 1e-4
 """rad and rad/s: central differences err by its square, or by rounding over it."""

@@ -16,6 +16,13 @@ from bench.engines.episode import Settings as Limits
 from bench.engines.metrics.registry import metrics_of
 from bench.experiments.episode_rows import judged_columns
 from bench.experiments.experiment import Unit
+from bench.experiments.probe_values.sliding import (
+    LAW,
+    NOISE_SHARE,
+    PERIODS_S,
+    STARTS_OF_A_SET,
+    WITH_MEMORY,
+)
 from bench.experiments.probes.number import Number
 from bench.experiments.request import Request
 from bench.law.contender import Contender
@@ -25,17 +32,10 @@ from bench.law.kinds import Law
 from tasks.base import Start
 from tasks.condition import Condition
 
-LAW, WITH_MEMORY = "sliding", "sliding-memory"
 AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.6, 0.8))
 ANGLES_DEG = (60.0, 120.0, 170.0, 179.0)
-STARTS_OF_A_SET = 100
 SAMPLES = 1000
 """A sample a millisecond for 1 s, ten time constants at the default gains: T falls by e^-10, far above rounding."""
-
-PERIODS_S = (1e-3, 1e-4, 1e-5)
-NOISE_SHARE = 3.0
-"""Control periods, and the noise over Kp period^2. From rest the command 2 Kp turns the body by 1 in this unit in
-one period, so that less cannot turn it back in time; at 3 it can."""
 
 NOISE_S = 2.0
 """Horizon under noise [s]."""

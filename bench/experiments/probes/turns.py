@@ -14,6 +14,17 @@ import numpy as np
 from bench.base.on_first_use import Turn, pd
 from bench.experiments.episodes import prepare_law, rows_from
 from bench.experiments.experiment import Unit, rows_of
+from bench.experiments.probe_values.turns import (
+    BESIDE,
+    DIRECTIONS,
+    FEEDBACK,
+    GAINS,
+    MARGINS_RAD,
+    MATRIX,
+    NEAR_GOAL_RAD,
+    PERTURBED,
+    SPEED,
+)
 from bench.experiments.probes.number import Number
 from bench.experiments.request import Request
 from bench.experiments.suites import SHORT
@@ -22,57 +33,23 @@ from bench.law.inputs import Gains
 from tasks.base import IDENTITY, Start
 from tasks.haar import axes
 
-MATRIX = "rotation-matrix"
 LINEARIZED = "linearized-euler/zyx-euler"
-RELATIVE = "linearized-euler-relative/zyx-euler"
-FEEDBACK = "feedback-linearized/zyx-euler"
-
-GAINS = (
-    (100.0, 20.0),
-    (25.0, 10.0),
-    (400.0, 40.0),
-    (100.0, 10.0),
-    (100.0, 40.0),
-)
-"""Critically damped at 10, 5 and 20 rad/s; then damping ratios 1/2 and 2 at 10 rad/s."""
 
 SMALL_RAD = (0.1, 0.01, 0.001)
 LARGER_RAD = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2)
 ALONE_RAD = (0.7, 1.0, 1.4)
 """rad of one angle alone: beta stays under pi/2."""
 
-DIRECTIONS = 16
 ABOUT = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 1.0, 1.0))
 """Axes of the small turns of the rotation-matrix law."""
 
 LONG_S = 20.0
 """Horizon of turns [s]: the slowest pair of GAINS settles in 2.2 s."""
 
-NEAR_GOAL_RAD = 0.3
-
-MARGINS_RAD = (0.01, 0.05, 0.1, 0.2)
-SPEED, BESIDE = 20.0, 64
-"""rad/s, as fast as the fastest tumbling start; starts at each margin."""
-
 OUTSIDE_RAD = 1e-3
 """How far outside the margin they start."""
 
 PERTURBED_S = 5.0
-PERTURBED = {
-    "wrong-inertia": (
-        "inertia",
-        100,
-        (MATRIX, FEEDBACK),
-        ("settling_time_s",),
-    ),
-    "moving-goal": (
-        "moving-goal",
-        200,
-        (RELATIVE, MATRIX),
-        ("angle0_rad", "tail_max_rad"),
-    ),
-}
-"""Probe -> perturbation, starts at each level, laws, and the columns of robustness.parquet that are kept."""
 
 
 def about(axis: Sequence[float] | np.ndarray, angle: float) -> tuple:

@@ -14,19 +14,17 @@ import numpy as np
 
 from bench.base.on_first_use import Turn
 from bench.experiments.experiment import Unit
+from bench.experiments.probe_values.variables import (
+    LEGS,
+    MATRICES,
+    PAIRS,
+    STEPS,
+    WAYS,
+)
 from bench.experiments.probes.number import Number
 from bench.experiments.request import Request
 
-WAYS, LEGS = 200, 5
-"""Pairs of paths with the same ends; turns about one axis, one after the other."""
-
 LOOPS_RAD = (0.1, 0.5, 1.0, math.pi / 2)
-
-MATRICES, PAIRS = 200, 12
-"""Random orientations, and pairs of outer angles."""
-
-STEPS = 200
-"""Points of a straight way: its length is then short by less than a thousandth."""
 
 POSSIBLE = 1e-12
 """Rounding of a determinant of order 1: some hundred roundings."""

@@ -24,8 +24,10 @@ import numpy as np
 from bench.base.errors import BadResults, NoEvidence
 from bench.base.on_first_use import pd
 from bench.base.provenance import read_provenance
+from bench.experiments.columns import WORD
 from bench.experiments.tables.kept_laws import kept_laws
-from bench.experiments.tables.schema import RESULTS, table_of
+from bench.experiments.tables.rows import Words, has_words, matching, number_rows, occurring, rows_where
+from bench.experiments.tables.schema import RESULTS, declared_table, table_of
 from bench.law.contender import Contender
 from bench.law.contenders.registry import contenders, contenders_of
 from bench.law.inputs import Gains
@@ -71,9 +73,6 @@ CASE = (
 )
 """Columns of probes.parquet that the measures of a case share."""
 
-Words = str | tuple[str, ...]
-"""A word of a column, or several of which a row has any."""
-
 
 def shown_folder() -> Path:
     """Return the folder of the run that is shown if none is named.
@@ -112,6 +111,7 @@ class Run:
         self.others = others
         self.chosen: list[tuple[str, str]] = []
         self._rows: dict[tuple[str, str], pd.DataFrame] = {}
+        self._first: pd.DataFrame | None = None
 
     @property
     def has_folder(self) -> bool:
@@ -134,7 +134,7 @@ class Run:
         """Return the rows of a table that have these words; there may be none.
 
         For example `table("episodes", engine="native", start_set=("poles", "wraps"))`. The frame is
-        shared: copy it before you change it.
+        shared: copy it before you change it. Its columns may know words that do not occur in it.
 
         Errors:
             NoTable: the run has no file of the table.
@@ -143,7 +143,7 @@ class Run:
         """
         condition = query_of(words)
         if (name, condition) not in self._rows:
-            self._rows[name, condition] = choose_rows(self._whole(name), words)
+            self._rows[name, condition] = matching(self._whole(name), words)
         rows = self._rows[name, condition]
         if len(rows):
             self.chosen.append((name, condition))
@@ -156,7 +156,7 @@ class Run:
             raise NoEvidence(
                 f"table '{name}': there is no folder to read it from; give one, or its frame"
             )
-        return _read_table(self._folder, name)
+        return read_table(self._folder, name)
 
     def rows(self, name: str, **words: Words) -> pd.DataFrame:
         """Return the rows of a table that have these words; NoEvidence if there are none."""
@@ -182,30 +182,31 @@ class Run:
         rows = self.table("probes", probe=name, **words)
         return widen(require_rows(rows, f"row of the probe '{name}'"))
 
-    def _any_episode(self) -> pd.Series:
-        rows = self.table("episodes", **FREE_BODY, engine=MAIN_ENGINE)
-        return require_rows(rows, f"episode by {MAIN_ENGINE}").iloc[0]
+    def _any_episode(self) -> pd.DataFrame:
+        words = {**FREE_BODY, "engine": MAIN_ENGINE}
+        if self._first is None:
+            every = self._whole("episodes")
+            places = has_words(every, words).nonzero()[0]
+            self._first = every.iloc[places[:1]]
+        if len(self._first):
+            self.chosen.append(("episodes", query_of(words)))
+        return require_rows(self._first, f"episode by {MAIN_ENGINE}")
 
     def gains(self) -> Gains:
         """Return the gains of the run's free body."""
         row = self._any_episode()
-        return Gains(float(row["kp"]), float(row["kv"]))
+        return Gains(float(row["kp"].array[0]), float(row["kv"].array[0]))
 
     def period(self) -> float:
         """Return the run's control period [s]."""
-        return float(self._any_episode()["dt_s"])
+        return float(self._any_episode()["dt_s"].array[0])
 
     def machines(self) -> list[pd.DataFrame]:
         """Return the times of each machine that was timed, its name in a column `machine`."""
-        from bench.experiments.tables.store import read_arrow
-
         if "timings" in self.frames:
             return [self.frames["timings"]]
-        frames = []
-        for path in sorted(self.timings_folder.glob("*.parquet")):
-            times = read_arrow(path, "timings").to_pandas()
-            frames.append(times.assign(machine=path.stem))
-        return frames
+        paths = sorted(self.timings_folder.glob("*.parquet"))
+        return [_read_times(path, path.stat().st_mtime_ns) for path in paths]
 
     def timings(self) -> pd.DataFrame:
         """Return times per tick of laws alone, on every machine; there may be none."""
@@ -239,7 +240,7 @@ class Run:
         """
         if self._folder is None or not os.path.lexists(self._folder / "laws"):
             return ()
-        return kept_laws(self._folder, _read_table(self._folder, "costs"))
+        return kept_laws(self._folder, read_table(self._folder, "costs"))
 
     @functools.cached_property
     def _user_laws(self) -> dict[str, Law]:
@@ -284,38 +285,57 @@ def require_rows(rows: Rows, what: str) -> Rows:
 
 def converged(rows: pd.DataFrame) -> pd.DataFrame:
     """Return the episodes without those whose outcome changes if the time step is shorter."""
-    return rows[rows["converged"] != "no"]
+    return rows_where(rows, (rows["converged"] != "no").to_numpy(bool))
+
+
+@functools.lru_cache(maxsize=16)
+def _read_times(path: Path, changed_ns: int) -> pd.DataFrame:
+    """Return the times of a machine; changed_ns: when the file was written, for another is read again."""
+    from bench.experiments.tables.store import frame
+
+    return frame(path, "timings").assign(machine=path.stem)
 
 
 @functools.cache
-def _read_table(folder: Path, name: str) -> pd.DataFrame:
-    """Return a whole table, with `contender` if its rows belong to laws; one copy a process."""
+def read_table(folder: Path, name: str, columns: tuple[str, ...] | None = None) -> pd.DataFrame:
+    """Return a table, with `contender` if its rows belong to laws; one copy a process.
+
+    columns: those that are read; all if None.
+    """
     from bench.experiments.tables.store import read
 
-    frame = read(folder, name)
+    frame = read(folder, name, columns)
+    words = {column.name for column in declared_table(name).columns() if column.type == WORD}
+    words.intersection_update(columns or words)
+    found = set(_columns_of_words(frame))
     # Numbers may be missing: a metric may be newer than the run.
-    for column in table_of(name).schema():
-        is_word = column.name in frame and isinstance(frame[column.name].dtype, pd.CategoricalDtype)
-        if is_word != str(column.type).startswith("dictionary"):
-            raise BadResults(
-                f"{folder}: table {name} has no column {column.name} as ours is; run again"
-            )
+    for column in sorted(words ^ found):
+        raise BadResults(
+            f"{folder}: table {name} has no column {column} as ours is; run again"
+        )
     has_laws = "controller" in frame or "regulator" in frame
     return with_contender(frame) if has_laws else frame
 
 
+def _columns_of_words(frame: pd.DataFrame) -> list[str]:
+    kinds = frame.dtypes.items()
+    return [str(column) for column, kind in kinds if isinstance(kind, pd.CategoricalDtype)]
+
+
 def with_contender(frame: pd.DataFrame) -> pd.DataFrame:
-    """Return the frame with a column `contender`, as the command line writes it."""
+    """Return the frame with `contender` added, as the command line writes it; each combination is named only once."""
     columns = [name for name in MARKS if name in frame]
-    words = frame[columns]
-    # Each combination is named only once.
-    combinations = words.drop_duplicates().astype(str)
-    names = combinations[columns[0]]
-    for name in columns[1:]:
-        longer = names + MARKS[name] + combinations[name]
-        names = names.where(combinations[name] == "", longer)
-    number = words.groupby(columns, observed=True, sort=False).ngroup()
-    return frame.assign(contender=names.astype("category").array.take(number.to_numpy()))
+    first, number = number_rows(frame, columns)
+    names = [""] * len(first)
+    for column in columns:
+        words = frame[column].iloc[first].astype(object)
+        for place, word in enumerate(words):
+            if word:
+                names[place] += MARKS[column] + word
+    categories = sorted(set(names))
+    code_of = {name: code for code, name in enumerate(categories)}
+    codes = np.array([code_of[name] for name in names], dtype=int)
+    return frame.assign(contender=pd.Categorical.from_codes(codes[number], categories))
 
 
 def choose_rows(frame: pd.DataFrame, words: Mapping[str, Words]) -> pd.DataFrame:
@@ -323,19 +343,9 @@ def choose_rows(frame: pd.DataFrame, words: Mapping[str, Words]) -> pd.DataFrame
 
     BadResults: the frame has no such column.
     """
-    # All columns are taken once, not once a word.
-    is_chosen: pd.Series | None = None
-    for column, word in words.items():
-        if column not in frame:
-            known = ", ".join(map(str, frame.columns))
-            raise BadResults(f"no column '{column}' in this table; it has: {known}")
-        is_any = frame[column].isin(word) if isinstance(word, tuple) else frame[column] == word
-        is_chosen = is_any if is_chosen is None else is_chosen & is_any
-    rows = frame if is_chosen is None else frame[is_chosen]
-    rows = rows.reset_index(drop=True)
-    for column in rows.select_dtypes("category"):
-        rows[column] = rows[column].cat.remove_unused_categories()
-    return rows
+    rows = matching(frame, words)
+    columns = {column: occurring(rows[column].array) for column in _columns_of_words(rows)}
+    return rows.assign(**columns)
 
 
 def query_of(words: Mapping[str, Words]) -> str:
@@ -349,15 +359,9 @@ def query_of(words: Mapping[str, Words]) -> str:
 
 def widen(rows: pd.DataFrame) -> pd.DataFrame:
     """Return rows of probes.parquet with a column a measure, a row a case, in the order of rows."""
-    case = list(CASE)
-    number = rows.groupby(case, sort=False, observed=True).ngroup().to_numpy()
-    measures = rows["measure"].astype(str).to_numpy()
-    values = rows["value"].to_numpy(float)
-    is_first = ~pd.Series(number, index=rows.index).duplicated()
-    cases = rows.loc[is_first, case].reset_index(drop=True)
-    for measure in dict.fromkeys(measures):
-        is_measure = measures == measure
-        column = np.full(len(cases), np.nan)
-        column[number[is_measure]] = values[is_measure]
-        cases[measure] = column
-    return cases
+    first, number = number_rows(rows, CASE)
+    measure, names = pd.factorize(rows["measure"])
+    columns = np.full((len(names), len(first)), np.nan)
+    columns[measure, number] = rows["value"].to_numpy(float)
+    cases = rows[list(CASE)].iloc[first].reset_index(drop=True)
+    return cases.assign(**dict(zip(map(str, names), columns, strict=True)))

@@ -1,12 +1,15 @@
 """The tables that are known by name: those of experiments and STUDIED. results/README.md is generated from here."""
 
 import functools
+from pathlib import Path
 
 from bench.base.provenance import WORKPLACE
-from bench.experiments.columns import Table, read_table
+from bench.experiments.columns import Table, read_declared, read_table
 from bench.experiments.experiment import known_experiments
 
 RESULTS = WORKPLACE / "results"
+EXPERIMENTS = Path(__file__).resolve().parents[1]
+"""Folder of the TOML files that declare tables."""
 
 NAMES = (
     *("perturbed", "timings", "libraries", "closed_loop", "verdicts", "real_time", "contact_limits"),
@@ -25,6 +28,23 @@ def all_tables() -> dict[str, Table]:
 def table_of(which: str | Table) -> Table:
     """Return the table of that name, or a table as it is."""
     return all_tables()[which] if isinstance(which, str) else which
+
+
+def name_of(which: str | Table) -> str:
+    """Return the name of a table, or a name as it is."""
+    return which if isinstance(which, str) else which.name
+
+
+@functools.cache
+def declared_table(name: str) -> Table:
+    """Return the table of that name as its TOML file declares it, without the numbers that a module adds to it.
+
+    No experiment is imported for it, nor what they simulate with. KeyError: there is no such table.
+    """
+    paths = list(EXPERIMENTS.rglob(f"{name}.toml"))
+    if len(paths) != 1:
+        raise KeyError(name)
+    return read_declared(paths[0], {})
 
 
 def readme() -> str:

@@ -17,6 +17,8 @@ RESAMPLES = 2000
 
 TAIL = 0.025
 
+NOTHING = "no values to resample (allowed: at least one)"
+
 
 class Estimate(NamedTuple):
     """A number and its 95 % interval."""
@@ -39,10 +41,15 @@ def wilson(count: int, of: int) -> tuple[float, float]:
     return (0.0 if count == 0 else low, 1.0 if count == of else high)
 
 
+def place_of_quantile(count: int, level: float) -> int:
+    """Return the place in order, from 0, of the smallest value that at least a share `level` do not exceed."""
+    # 0.07 * 100 is 7.000000000000001, which is no reason to take the eighth
+    return max(0, math.ceil(level * count - 1e-9) - 1)
+
+
 def quantile(values: np.ndarray, level: float, axis: int = -1) -> np.ndarray:
     """Return the smallest value that at least a share `level` of the values do not exceed; infinities are values."""
-    # 0.07 * 100 is 7.000000000000001, which is no reason to take the eighth
-    place = max(0, math.ceil(level * np.shape(values)[axis] - 1e-9) - 1)
+    place = place_of_quantile(np.shape(values)[axis], level)
     return np.take(np.partition(values, place, axis=axis), place, axis=axis)
 
 
@@ -64,8 +71,13 @@ def bootstrap(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: in
     start, shape (n,), at least one. statistic(values, axis=-1) -> one number along that axis.
     """
     found = resampled(values, statistic, seed)
+    return percentile_estimate(statistic(values, axis=-1), found)
+
+
+def percentile_estimate(value: float | np.ndarray, found: np.ndarray) -> Estimate:
+    """Return a statistic with its percentile interval; found: the statistic of each resample, shape (RESAMPLES,)."""
     low, high = quantile(found, TAIL), quantile(found, 1.0 - TAIL)
-    return Estimate(float(statistic(values, axis=-1)), float(low), float(high))
+    return Estimate(float(value), float(low), float(high))
 
 
 def resampled(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: int = SEED) -> np.ndarray:
@@ -74,7 +86,7 @@ def resampled(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: in
     So the difference of two laws' is the paired bootstrap of their difference.
     """
     if not len(values):
-        raise ValueError("no values to resample (allowed: at least one)")
+        raise ValueError(NOTHING)
     return statistic(np.asarray(values)[_resamples(len(values), seed)], axis=-1)
 
 
@@ -85,31 +97,62 @@ def _resamples(count: int, seed: int) -> np.ndarray:
 
 
 def quantile_estimate(values: np.ndarray, level: float, seed: int = SEED) -> Estimate:
-    """Return a quantile with its interval."""
-    return bootstrap(values, lambda drawn, axis: quantile(drawn, level, axis), seed)
+    """Return a quantile with its interval, as `bootstrap` has it."""
+    found = resampled_quantile(values, level, seed)
+    return percentile_estimate(quantile(values, level), found)
+
+
+REACH = 5.0
+"""How far from the quantile of all values that of a resample is looked for first, in standard deviations."""
 
 
 def resampled_quantile(values: np.ndarray, level: float, seed: int = SEED) -> np.ndarray:
-    """Return `resampled` of a high quantile, number for number, by the greatest values alone.
+    """Return `resampled` of a quantile, number for number, by the values near the quantile alone.
 
-    A resample is how often each value was drawn. Its quantile is the value at which the counts, from the greatest value
-    down, first exceed the number of values that lie above the quantile; a few of the greatest are enough.
+    A resample is how often each value was drawn. Its quantile is the value at which the counts, from the least value
+    up, first exceed the place of the quantile. The place is binomial: with n values and level p the value lies within
+    some sqrt(n p (1 - p)) places of the quantile of the values themselves.
     """
     values = np.asarray(values)
-    above = len(values) - math.ceil(level * len(values) - 1e-9)
-    counts = _resampled_counts(len(values), seed)
-    order = np.argsort(-values, kind="stable")
-    most = 4 * above + 32
+    total = len(values)
+    if not total:
+        raise ValueError(NOTHING)
+    place = place_of_quantile(total, level)
+    counts = _resampled_counts(total, seed)
+    order = np.argsort(values, kind="stable")
+    share = (place + 1) / total
+    reach = math.ceil(REACH * math.sqrt(total * share * (1.0 - share))) + 8
     while True:
-        greatest = order[:most]
-        reached = counts[:, greatest].cumsum(axis=1) > above
-        if reached[:, -1].all():
-            return values[greatest][reached.argmax(axis=1)]
-        most *= 2
+        first, last = max(0, place - reach), min(total, place + reach)
+        is_below = np.zeros(total, counts.dtype)
+        is_below[order[:first]] = 1
+        below = counts @ is_below
+        near = order[first:last]
+        up_to = below[:, None] + counts[:, near].cumsum(axis=1, dtype=counts.dtype)
+        exceeds = up_to > place
+        if (below <= place).all() and exceeds[:, -1].all():
+            return values[near][exceeds.argmax(axis=1)]
+        reach *= 2
 
 
-@functools.lru_cache(maxsize=8)
+def resampled_slope(x: np.ndarray, y: np.ndarray, seed: int = SEED) -> np.ndarray:
+    """Return the least-squares slope of y against x in each resample, shape (RESAMPLES,); NaN where all x are equal.
+
+    slope = (sum xy - sum x sum y / n) / (sum xx - sum x sum x / n), sums over the n values drawn, from the mean of all.
+    """
+    from_mean, rise = x - x.mean(), y - y.mean()
+    products = [from_mean, rise, from_mean * rise, from_mean * from_mean]
+    sums = _resampled_counts(len(x), seed) @ np.stack(products, axis=1)
+    sum_x, sum_y, sum_xy, sum_xx = sums.T
+    with np.errstate(invalid="ignore"):
+        return (sum_xy - sum_x * sum_y / len(x)) / (sum_xx - sum_x * sum_x / len(x))
+
+
+@functools.lru_cache(maxsize=16)
 def _resampled_counts(count: int, seed: int) -> np.ndarray:
     """How often each value is in each resample, shape (RESAMPLES, count): of the same resamples as `_resamples`."""
-    drawn = _resamples(count, seed) + count * np.arange(RESAMPLES, dtype=np.int64)[:, None]
-    return np.bincount(drawn.ravel(), minlength=RESAMPLES * count).reshape(RESAMPLES, count).astype(np.int32)
+    is_small = count <= np.iinfo(np.int16).max
+    counts = np.empty((RESAMPLES, count), dtype=np.int16 if is_small else np.int32)
+    for row, drawn in zip(counts, _resamples(count, seed), strict=True):
+        row[:] = np.bincount(drawn, minlength=count)
+    return counts

@@ -19,7 +19,7 @@ from bench.base.files import read_json, refuse_link, write_atomically
 from bench.experiments.columns import VERSION, Table
 from bench.experiments.experiment import Unit, experiment_of, known_experiments, known_tables, rows_of
 from bench.experiments.request import Request
-from bench.experiments.tables.schema import table_of
+from bench.experiments.tables.schema import name_of, table_of
 
 
 def encoding(schema: pa.Schema) -> dict:
@@ -110,18 +110,22 @@ def joined(tables: list[pa.Table]) -> pa.Table:
     return pa.concat_tables(tables).unify_dictionaries().combine_chunks()
 
 
-def read_arrow(path: Path, table: str | Table) -> pa.Table:
-    """Return a table of ours with its schema checked; BadResults if it is missing, truncated, or of another schema."""
-    return _checked(
-        path,
-        table_of(table).name,
-        lambda: pq.ParquetFile(path, page_checksum_verification=True).read(use_threads=False),
-    )
+def read_arrow(path: Path, table: str | Table, columns: Iterable[str] | None = None) -> pa.Table:
+    """Return a table of ours with its schema checked; BadResults if it is missing, truncated, or of another schema.
+
+    columns: those that are read, of which the file may lack some; all of them if None.
+    """
+
+    def open_file() -> pa.Table:
+        file = pq.ParquetFile(path, page_checksum_verification=True)
+        return file.read(columns=columns and list(columns), use_threads=False)
+
+    return _checked(path, name_of(table), open_file)
 
 
 def check(path: Path, table: str | Table) -> None:
     """Make the checks of `read_arrow` from the file's end alone, where parquet keeps its schema."""
-    _checked(path, table_of(table).name, lambda: pq.read_schema(path).empty_table())
+    _checked(path, name_of(table), lambda: pq.read_schema(path).empty_table())
 
 
 def _checked(path: Path, table: str, opened: Callable) -> pa.Table:
@@ -173,21 +177,25 @@ def read_name(path: Path) -> str:
     return metadata.get(b"orientation-bench table", b"").decode(errors="replace")
 
 
-def frame(path: Path, table: str | Table) -> pd.DataFrame:
-    """Return a file of a table as a data frame, checked by `read_arrow`."""
-    return read_arrow(path, table).to_pandas(ignore_metadata=True)
+def frame(path: Path, table: str | Table, columns: Iterable[str] | None = None) -> pd.DataFrame:
+    """Return a file of a table as a data frame, or some of its columns, read and checked by `read_arrow`."""
+    return read_arrow(path, table, columns).to_pandas(ignore_metadata=True)
 
 
-def read(folder: Path, table: str | Table) -> pd.DataFrame:
-    """Return one table of a run, BadResults if it has not finished; without rows if its experiment is newer than it."""
-    table, folder = table_of(table), Path(folder)
+def read(folder: Path, table: str | Table, columns: Iterable[str] | None = None) -> pd.DataFrame:
+    """Return one table of a run, BadResults if it has not finished; without rows if its experiment is newer than it.
+
+    columns: those that are read, see `read_arrow`.
+    """
+    name, folder = name_of(table), Path(folder)
     if not folder.is_dir():
         raise BadResults(f"{folder}: there is no such folder; run `make bench` (or bench run) first")
     if not (folder / "provenance.json").is_file():
         raise BadResults(f"{folder}: the run there has not finished; the same `bench run` command resumes it")
-    if table.name in find_newer(folder):
-        return table.schema().empty_table().to_pandas(ignore_metadata=True)
-    return frame(folder / f"{table.name}.parquet", table)
+    path = folder / f"{name}.parquet"
+    if not os.path.lexists(path) and name in find_newer(folder):
+        return table_of(table).schema().empty_table().to_pandas(ignore_metadata=True)
+    return frame(path, name, columns)
 
 
 def find_newer(folder: Path) -> list[str]:

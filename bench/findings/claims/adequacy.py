@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from bench.base.on_first_use import pd
+from bench.experiments.tables.rows import number_rows, rows_where
 from bench.experiments.tables.run import FREE_BODY, Run, converged, require_rows
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims import places
+from bench.findings.claims.once import once_a_run
 from bench.findings.claims.places import EXACT_RAD
 from bench.findings.claims.standing import (
     ORDERED,
@@ -24,7 +27,7 @@ from bench.findings.claims.standing import (
 )
 from bench.findings.claims.tables import settled, settling_times, starts_at_speed
 from bench.findings.perturbed import DETOUR
-from bench.findings.start_sets import describe_lacking, least_starts
+from bench.findings.start_sets import least_starts
 from bench.law.attribution import YOURS
 from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders
@@ -80,51 +83,103 @@ class Adequacy(NamedTuple):
     rows: int
 
 
-def every(results: Run, engine: str) -> list[Adequacy]:
-    """Return all laws that have a suite's uniform starts, 180° rotations and a cost, the fewest operations first."""
-    runs = results.table("episodes", **FREE_BODY, task="free-body", engine=engine)
-    runs = runs[runs["start_set"].isin(("uniform", *DIRECTED))]
-    least, by_law = least_starts(engine, "beyond"), runs.groupby("contender", observed=True)
-    lacking = [name for name, own in by_law if describe_lacking(own, least, "uniform", "half-turn")]
-    runs = runs[~runs["contender"].isin(lacking if results.has_folder else [])]
-    runs = require_rows(converged(runs), f"law with the starts that a claim needs by {engine}").reset_index(drop=True)
-    runs = runs.assign(lost=~settled(runs), exact=exact(runs))
-    costs = results.table("costs", **FREE_BODY, branch="typical")
-    priced = {str(name): rows for name, rows in costs.groupby("contender", observed=True)}
-    found = [
-        _row(str(name), own, priced[str(name)], tuple(starts_at_speed(results, str(name), engine)))
-        for name, own in runs.groupby("contender", observed=True)
-        if name in priced and {"uniform", "half-turn"} <= set(own["start_set"])
-    ]
-    return sorted(found, key=lambda one: sum(one.cost))
+def every(run: Run, engine: str, laws: tuple[str, ...] = ()) -> list[Adequacy]:
+    """Return the laws that have a suite's uniform starts, 180° rotations and a cost, the fewest operations first.
+
+    laws: those that are looked at; all if none is named.
+    """
+    starts, operations = starts_of_laws(run, engine, laws), operations_of_laws(run)
+    found = []
+    for name in starts:
+        start_sets = set(starts[name].start_set.tolist())
+        if name in operations and {"uniform", "half-turn"} <= start_sets:
+            spun = tuple(starts_at_speed(run, name, engine))
+            found.append(measure(name, starts[name], operations[name], spun))
+    return sorted(found, key=lambda law: sum(law.cost))
 
 
-def held(results: Run, noise_rad: float) -> dict[str, tuple[int, int]]:
+class Starts(NamedTuple):
+    """Starts of one law, an element a start: the columns that its tests need.
+
+    start_set: names. is_lost: whether it does not settle. is_exact: whether it is on a boundary. time [s]: of settling,
+    infinite if it does not. path: over the shortest one.
+    """
+
+    start_set: np.ndarray
+    is_lost: np.ndarray
+    is_exact: np.ndarray
+    time: np.ndarray
+    path: np.ndarray
+
+    def among(self, is_chosen: np.ndarray) -> Starts:
+        """Return some of the starts."""
+        return Starts(*(column[is_chosen] for column in self))
+
+
+@once_a_run
+def starts_of_laws(run: Run, engine: str, laws: tuple[str, ...]) -> dict[str, Starts]:
+    """Return the converged starts that C17 and C27 are about, of each law that has as many as a claim needs."""
+    runs = run.table("episodes", **FREE_BODY, task="free-body", engine=engine)
+    is_chosen = runs["start_set"].isin(("uniform", *DIRECTED)).to_numpy()
+    if laws:
+        is_chosen = is_chosen & runs["contender"].isin(laws).to_numpy()
+    runs = rows_where(runs, is_chosen)
+    if run.has_folder:
+        least = least_starts(engine, "beyond")
+        lacking = find_lacking(runs, least, "uniform", "half-turn")
+        runs = rows_where(runs, ~runs["contender"].isin(lacking).to_numpy())
+    runs = require_rows(converged(runs), f"law with the starts that a claim needs by {engine}")
+    starts = Starts(
+        start_set=runs["start_set"].astype(object).to_numpy(),
+        is_lost=~settled(runs).to_numpy(),
+        is_exact=exact(runs).to_numpy(),
+        time=settling_times(runs),
+        path=runs["path_ratio"].to_numpy(float),
+    )
+    number, names = pd.factorize(runs["contender"], sort=True)
+    return {str(name): starts.among(number == place) for place, name in enumerate(names)}
+
+
+def find_lacking(runs: pd.DataFrame, least: Mapping[str, int], *start_sets: str) -> list[str]:
+    """Return the laws with fewer starts of some set than they need."""
+    first, _ = number_rows(runs, ("contender", "start_set", "start_id"))
+    laws, sets = (runs[column].astype(object).to_numpy()[first].tolist() for column in ("contender", "start_set"))
+    counts = Counter(zip(laws, sets, strict=True))
+    found = []
+    for law in dict.fromkeys(laws):
+        if any(counts[law, name] < least.get(name, 0) for name in start_sets):
+            found.append(law)
+    return found
+
+
+def measure(name: str, starts: Starts, operations: Stages, spun: tuple[Spun, ...]) -> Adequacy:
+    """Return what is measured of a law that has uniform starts and 180° rotations."""
+    is_uniform = starts.start_set == "uniform"
+    uniform, directed = starts.among(is_uniform), starts.among(~is_uniform)
+    plain = starts.among(is_uniform | (starts.start_set == "half-turn"))
+    paths = plain.path[~np.isnan(plain.path)]
+    return Adequacy(
+        name,
+        n=len(uniform.time),
+        settled=float(1.0 - uniform.is_lost.mean()),
+        pace=quantile_estimate(uniform.time, NEARLY_ALL),
+        directed=int((~directed.is_exact).sum()),
+        lost=int((directed.is_lost & ~directed.is_exact).sum()),
+        exact=int(directed.is_exact.sum()),
+        lost_exact=int((directed.is_lost & directed.is_exact).sum()),
+        spun=spun,
+        detour=float(paths.max()) if len(paths) else np.nan,
+        cost=operations.total.without(operations.goal),
+        rows=len(starts.time),
+    )
+
+
+def held(run: Run, noise_rad: float) -> dict[str, tuple[int, int]]:
     """Return by law the starts at 180° that worst-case noise up to an angle holds there, and of how many."""
-    noise = results.table("robustness", axis=NOISE)
+    noise = run.table("robustness", axis=NOISE)
     tried = require_rows(noise[noise["level"] <= noise_rad], f"episode under '{NOISE}'")
     counts = tried.assign(lost=~settled(tried)).groupby("contender", observed=True)["lost"].agg(["sum", "size"])
     return {str(name): (int(lost), int(of)) for name, lost, of in counts.itertuples()}
-
-
-def _row(name: str, own: pd.DataFrame, costs: pd.DataFrame, spun: tuple[Spun, ...]) -> Adequacy:
-    is_uniform = own["start_set"] == "uniform"
-    uniform, directed = own[is_uniform], own[~is_uniform]
-    plain = own[is_uniform | (own["start_set"] == "half-turn")]
-    return Adequacy(
-        name,
-        len(uniform),
-        float(1.0 - uniform["lost"].mean()),
-        quantile_estimate(settling_times(uniform), NEARLY_ALL),
-        int((~directed["exact"]).sum()),
-        int((directed["lost"] & ~directed["exact"]).sum()),
-        int(directed["exact"].sum()),
-        int((directed["lost"] & directed["exact"]).sum()),
-        spun,
-        float(plain["path_ratio"].max()),
-        tallied(costs, with_goal=False),
-        len(own),
-    )
 
 
 def exact(runs: pd.DataFrame) -> pd.Series:
@@ -132,36 +187,53 @@ def exact(runs: pd.DataFrame) -> pd.Series:
     distance = places.boundary_distance(runs)
     at_goal = distance["half_turn"].where(runs["angle0_rad"] > 1, np.pi)
     found = (distance["pole"] <= EXACT_RAD) | (distance["wrap"] <= EXACT_RAD) | (at_goal <= EXACT_RAD)
-    goals = runs.drop_duplicates(list(places.GOAL_QUAT))
-    to_pole = goals[list(places.GOAL_QUAT)].assign(far=places.goal_to_pole(goals))
-    far = runs[list(places.GOAL_QUAT)].merge(to_pole, how="left", on=list(places.GOAL_QUAT))["far"]
-    return found | (far.to_numpy() <= EXACT_RAD)
+    return found | (places.goal_to_pole(runs) <= EXACT_RAD)
 
 
 def of_stage(rows: pd.DataFrame, stage: str) -> Operations:
     """Flops and transcendental calls of one stage of a contender's rows."""
-    own = rows[rows["stage"] == stage].iloc[0]
-    return Operations(int(own["flops"]), int(sum(own[name] for name in CALLS)))
+    place = (rows["stage"] == stage).to_numpy(bool).nonzero()[0][0]
+    return Operations(int(rows["flops"].array[place]), sum(int(rows[name].array[place]) for name in CALLS))
 
 
 def tallied(rows: pd.DataFrame, with_goal: bool) -> Operations:
     """Flops and transcendental calls of one contender's rows, a row a stage."""
-    total, goal = of_stage(rows, "total"), of_stage(rows, "goal")
-    return total if with_goal else Operations(total.flops - goal.flops, total.calls - goal.calls)
+    total = of_stage(rows, "total")
+    return total if with_goal else total.without(of_stage(rows, "goal"))
 
 
-def ledger(results: Run) -> Ledger:
+class Stages(NamedTuple):
+    """Operations of a law: of the whole tick, and of the goal's stage in it."""
+
+    total: Operations
+    goal: Operations
+
+
+@once_a_run
+def operations_of_laws(run: Run) -> dict[str, Stages]:
+    """Return the operations of each law of the free body, typical branch, by its name in alphabetical order."""
+    rows = run.table("costs", **FREE_BODY, branch="typical")
+    laws, stages = (rows[column].astype(object).tolist() for column in ("contender", "stage"))
+    calls = rows[list(CALLS)].to_numpy().sum(axis=1).tolist()
+    found: dict[tuple[str, str], Operations] = {}
+    for law, stage, *operations in zip(laws, stages, rows["flops"].tolist(), calls, strict=True):
+        found.setdefault((law, stage), Operations(*operations))
+    return {law: Stages(found[law, "total"], found[law, "goal"]) for law in sorted(set(laws))}
+
+
+@once_a_run
+def ledger(run: Run) -> Ledger:
     """Return the cost of laws of the free body, typical branch, without the goal's stage and with it."""
-    rows = results.table("costs", **FREE_BODY, branch="typical")
-    by_law = {str(name): own for name, own in rows.groupby("contender", observed=True)}
-    alone, whole = ({name: tallied(own, goal) for name, own in by_law.items()} for goal in (False, True))
-    times = times_of(results.timings())
+    by_law = operations_of_laws(run)
+    alone = {name: stages.total.without(stages.goal) for name, stages in by_law.items()}
+    whole = {name: stages.total for name, stages in by_law.items()}
+    times = times_of(run.timings())
     return Ledger(times, (alone, whole), price_of_a_call(times, whole))
 
 
-def of_three(results: Run) -> Ledger:
+def of_three(run: Run) -> Ledger:
     """Return the ledger where the paper's three laws are counted; NoEvidence: one of them is not."""
-    known = ledger(results)
+    known = ledger(run)
     for name in THREE:
         require_rows([one[name] for one in known.accountings if name in one], f"cost of {name}")
     return known

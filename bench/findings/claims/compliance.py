@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from bench.base.on_first_use import Turn, pd
+from bench.base.on_first_use import pd
 from bench.experiments.tables.run import Run, require_rows
 from bench.findings.amounts import count, count_of, join_words, part_of
-from bench.findings.claims import side_by_side
+from bench.findings.claims import places, side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.tables import evidence, percent, rounding
 from bench.findings.claims.verdict import Evidence, Word, claim, word_of
@@ -84,7 +84,7 @@ def _one_axis(run: Run, forms: tuple[str, ...]) -> Any:
         )
     C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
     differs = side_by_side.apart(C, base)
-    turns = (Turn.from_euler("ZYX", each).as_matrix() for each in (earlier, rows[list(ANGLES)].to_numpy()))
+    turns = (places.matrices_of(angles) for angles in (earlier, rows[list(ANGLES)].to_numpy()))
     differs_turned, differs_in_hand = (side_by_side.apart(C, side_by_side.turned(base, Q)) for Q in turns)
     word = word_of((differs[away] <= SAME).all(), (differs_turned[away] <= SAME).all())
     judged = rows.assign(

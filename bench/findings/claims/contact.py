@@ -6,14 +6,13 @@ import numpy as np
 
 from bench.base.errors import NoEvidence
 from bench.base.on_first_use import pd
-from bench.engines.metrics.contact_force import WINDOW_S
 from bench.experiments.tables.run import Run, require_rows
 from bench.findings.amounts import capitalize, count, count_of
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, by_papers_form, paired
 from bench.findings.claims.tables import evidence, percent
 from bench.findings.claims.verdict import Evidence, Word, claim, word_of
-from tasks.contact_rest import HORIZON_S
+from tasks.contact_rest import HORIZON_S, WINDOW_S
 
 # |beta| of the hand's frame from which on the two must differ: its x then leans to z as much as it lies level.
 TURNED_DEG = 45.0
@@ -58,7 +57,7 @@ LIMITS_S = {"end": HORIZON_S, "window": WINDOW_S}
 def c25(run: Run, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     """Pairs of episodes in contact that differ in the Jacobian alone, by task."""
     what = f"pose of a task by hybrid/{COORDINATES} and {BASE}, +{' or +'.join(forms)}"
-    rows = require_rows(paired(run, COORDINATES, forms), what)
+    rows = require_rows(paired(run, COORDINATES, forms, ("beta", "outcome", *PERFORMANCE)), what)
     touching = rows[list(TOUCHED)].notna().groupby(rows["task"]).transform("any").any(axis=1)
     rows = require_rows(_compared(rows[touching].reset_index(drop=True)), "pose of a task with contact")
     complex_ones = require_rows(rows[rows["turns"] >= 2], "pose of a task with contact where two turns comply")

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import NamedTuple
 
 import tasks
 from bench.base.on_first_use import pd
-from bench.experiments.probes.arms import BY_EULER, CURVES, INVERSES, ON_MATRIX, TASK
+from bench.experiments.columns import CONTENDER_KEY
+from bench.experiments.probe_values.arms import BY_EULER, CURVES, INVERSES, ON_MATRIX, TASK
 from bench.experiments.suites import SUITES
-from bench.experiments.tables.run import Run, choose_rows, require_rows
+from bench.experiments.tables.rows import matching
+from bench.experiments.tables.run import Run, require_rows
 from bench.findings.amounts import count_of, join_words, part_of
 from bench.findings.claims import adequacy, standing
 from bench.findings.claims.adequacy import of_stage, tallied
@@ -65,6 +68,10 @@ def controller_costs(run: Run, controller: str, joints: int) -> pd.DataFrame:
     return require_rows(rows[rows["joints"] == joints], f"cost of {controller} on {joints} joints")
 
 
+COMPARED = (*CONTENDER_KEY, "arm", "start_set", "start_id", "outcome", "peak_tau_nm")
+"""Columns of episodes that C20 compares controllers by."""
+
+
 @claim("C20")
 def c20(run: Run) -> tuple[Word, Evidence]:
     """Curves at two steps; outcomes at the poles against the law on R; stages and totals."""
@@ -72,21 +79,23 @@ def c20(run: Run) -> tuple[Word, Evidence]:
         run.table("episodes", task=TASK, engine="native", variation="ideal-motors"),
         "nominal episode of an arm",
     )
+    found = found[list(COMPARED)]
     arms = sorted(set(found["arm"].astype(str)))
     bends = [_bend(run, arm) for arm in arms]
     compared_at = {arm: _at_poles(run, found, arm) for arm in arms}
-    clear, common = (
-        pd.concat([_pairs(run, found, arm, "clear", one) for arm in arms]) for one in (BY_EULER, BY_COMMON)
-    )
+    clear, common = [], []
+    for arm in arms:
+        clear += _pairs(run, found, arm, "clear", BY_EULER)
+        common += _pairs(run, found, arm, "clear", BY_COMMON)
     hidden = [_hidden(run, joints) for joints in INVERSES]
     full, shares, limits, drifts, samples = zip(*bends, strict=True)
     is_first_order = HALVING[0] <= min(shares) and max(shares) <= HALVING[1]
     is_linear = is_first_order and max(limits) <= BEND_TIGHT and max(drifts) <= DRIFT_M
-    fails = all(rows["fails"].any() for rows in compared_at.values()) and not clear["fails"].any()
+    fails = all(map(any, compared_at.values())) and not any(clear)
     hides = all(is_hidden for is_hidden, _ in hidden)
-    all_failures, all_poles = (sum(map(count, compared_at.values())) for count in (_count_failures, len))
+    all_failures, all_poles = (sum(map(count, compared_at.values())) for count in (sum, len))
     at_poles = join_words(
-        f"{part_of(_count_failures(rows), len(rows))} pole starts on the arm {arm}" for arm, rows in compared_at.items()
+        f"{part_of(sum(rows), len(rows))} pole starts on the arm {arm}" for arm, rows in compared_at.items()
     )
     return word_of(is_linear and fails and hides, max(limits) <= BEND_LOOSE and (fails or hides)), evidence(
         f"""We simulated {CURVES * len(arms)} motions on {len(arms)} arms with the full time step and with half of
@@ -96,9 +105,9 @@ def c20(run: Run) -> tuple[Word, Evidence]:
         linear response by at most {max(limits):.1e} rad, and the position of the tool differs from its goal by at most
         {max(drifts):.1e} m. A pole start is near a pole, or the shortest path from it to the goal passes near a pole.
         The controller (3.7) fails and the rotation-matrix law settles from {at_poles}. In episodes.parquet,
-        {count_of(_count_failures(clear), len(clear), "starts")} of the set 'clear' fail with (3.7) and settle with the
+        {count_of(sum(clear), len(clear), "starts")} of the set 'clear' fail with (3.7) and settle with the
         rotation-matrix law. With the law of the controller (3.7) and the geometric Jacobian,
-        {count_of(_count_failures(common), len(common), "starts")} fail in this way.
+        {count_of(sum(common), len(common), "starts")} fail in this way.
         {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
         measured=f"""The Euler angles differ from the linear response by at most {max(limits):.1e} rad. From
@@ -123,38 +132,48 @@ def _worst(numbers: pd.Series) -> float:
     return float(numbers.fillna(math.inf).max())
 
 
-def _pairs(run: Run, found: pd.DataFrame, arm: str, start_set: str, controller: str = BY_EULER) -> pd.DataFrame:
-    """Episodes by a controller and by the law on R from the same starts of a set."""
-    rows = found[(found["arm"] == arm) & (found["start_set"] == start_set)]
+def _pairs(run: Run, found: pd.DataFrame, arm: str, start_set: str, controller: str = BY_EULER) -> list[bool]:
+    """Return `_against` of a controller and the law on R from the same starts of a set."""
+    rows = found[((found["arm"] == arm) & (found["start_set"] == start_set)).to_numpy(bool)]
     least = SUITES["quick"].sections["arm"]["sizes"]  # of the smallest suite
     parts = []
     for one in (controller, ON_MATRIX):
-        own = choose_rows(rows, words(one, tasks.arm(arm).joints))
-        parts.append(require_rows(own, f"episode of {one} on {arm} from {start_set}"))
+        own = matching(rows, words(one, tasks.arm(arm).joints))
+        parts.append(_list_ends(require_rows(own, f"episode of {one} on {arm} from {start_set}")))
         check_starts(run, own, f"{one} on {arm}", least, start_set)
     return _against(*parts)
 
 
-def _against(own: pd.DataFrame, other: pd.DataFrame) -> pd.DataFrame:
-    """Both controllers' episodes side by side: whether the first fails where the other settles."""
-    both = own.merge(other, on="start_id", suffixes=("", "_other"))
-    hammered = ~(both["peak_tau_nm"] <= HAMMERED * both["peak_tau_nm_other"])
-    fails = (both["outcome_other"] == "settled") & ((both["outcome"] != "settled") | hammered)
-    return pd.DataFrame({"start_id": both["start_id"].astype(str), "fails": fails})
+class End(NamedTuple):
+    """How an episode on an arm ended. peak: the largest torque [N m]."""
+
+    is_settled: bool
+    peak: float
 
 
-def _at_poles(run: Run, found: pd.DataFrame, arm: str) -> pd.DataFrame:
-    """Return starts of the set 'pole', and episodes beside poles, by (3.7) and by the law on R."""
+def _list_ends(rows: pd.DataFrame, start: str = "start_id") -> dict[str, End]:
+    """Return how the episode from each start ended; start: the column that names the start."""
+    ends = zip((rows["outcome"] == "settled").tolist(), rows["peak_tau_nm"].tolist(), strict=True)
+    return {name: End(*end) for name, end in zip(rows[start].astype(object), ends, strict=True)}
+
+
+def _against(own: dict[str, End], other: dict[str, End]) -> list[bool]:
+    """Return of each start that both controllers ran whether the first fails where the other settles."""
+    fails = []
+    for start in own.keys() & other.keys():
+        # A peak that is not a number is one that the first controller never came back from.
+        is_hammered = not own[start].peak <= HAMMERED * other[start].peak
+        fails.append(other[start].is_settled and (is_hammered or not own[start].is_settled))
+    return fails
+
+
+def _at_poles(run: Run, found: pd.DataFrame, arm: str) -> list[bool]:
+    """Return `_against` of (3.7) and the law on R: starts of the set 'pole', then episodes beside poles."""
     beside = []
     for controller in (BY_EULER, ON_MATRIX):
         rows = run.probe("arm-pole", arm=arm, **words(controller, tasks.arm(arm).joints))
-        beside.append(rows.rename(columns={"case": "start_id"}))
-    return pd.concat([_pairs(run, found, arm, "pole"), _against(*beside)], ignore_index=True)
-
-
-def _count_failures(rows: pd.DataFrame) -> int:
-    """Return how many starts the first controller fails from where the other settles."""
-    return int(rows["fails"].sum())
+        beside.append(_list_ends(rows, "case"))
+    return [*_pairs(run, found, arm, "pole"), *_against(*beside)]
 
 
 def _hidden(run: Run, joints: int) -> tuple[bool, str]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from bench.experiments.probes import variables
-from bench.experiments.probes.coordinates import ANGLE_AND_AXIS, DECADES
+from bench.experiments.probe_values import variables
+from bench.experiments.probe_values.coordinates import ANGLE_AND_AXIS, DECADES
 from bench.experiments.tables.run import MAIN_ENGINE, Run, require_rows
 from bench.experiments.tables.statistics import quantile_estimate
 from bench.findings.amounts import join_words

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import itertools
+import re
 
 import numpy as np
 
 from bench.base.errors import NoEvidence
 from bench.base.on_first_use import pd
-from bench.experiments.probes import arms, coordinates
+from bench.experiments.probe_values import arms, coordinates
 from bench.experiments.tables.run import FREE_BODY, MAIN_ENGINE, Run, require_rows
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.amounts import count_of, join_words, part_of
@@ -98,20 +99,30 @@ def c18(run: Run) -> tuple[Word, Evidence]:
     )
 
 
+OF_FAMILY = re.compile(r"(?P<family>.+)-1e-(?P<k>\d+)")
+"""The name of a pose at 10^-k from the pole."""
+
+
 def _families(rows: pd.DataFrame) -> pd.DataFrame:
     """Each family that speaks: slopes over the first decades, the largest element at the last, J's worst condition."""
     pole = rows[rows["pose_set"] == "pole"]
-    ids = pole["pose_id"].astype(str).str.extract(r"^(?P<family>.+)-1e-(?P<k>\d+)$")
+    numbers = {name: pole[name].to_numpy(float) for name in ("margin", "condition", "condition_analytic", "largest")}
+    places: dict[tuple[str, str], dict[int, int]] = {}
+    for place, (arm, pose) in enumerate(zip(pole["arm"], pole["pose_id"], strict=True)):
+        named = OF_FAMILY.fullmatch(pose)
+        if named:
+            places.setdefault((arm, named["family"]), {})[int(named["k"])] = place
     found = []
-    for (arm, _), way in pole.assign(**ids).dropna(subset="k").groupby(["arm", "family"], observed=True):
-        k = way["k"].astype(int)
-        if way["condition"].max() > WELL_CONDITIONED or not {*range(1, DECADES + 1), NEAREST} <= set(k):
+    for (arm, _), place_of in sorted(places.items()):
+        way = {name: column[list(place_of.values())] for name, column in numbers.items()}
+        if way["condition"].max() > WELL_CONDITIONED or not {*range(1, DECADES + 1), NEAREST} <= set(place_of):
             continue
-        near = way[k <= DECADES]
-        decades = -np.log10(near["margin"])
-        slopes = {name: np.polyfit(decades, np.log10(near[name]), 1)[0] for name in ("condition_analytic", "largest")}
-        nearest, condition = float(way.loc[k == NEAREST, "largest"].iloc[0]), way["condition"].max()
-        found.append({"arm": str(arm), **slopes, "nearest": nearest, "condition": condition})
+        near = [place_of[k] for k in sorted(place_of) if k <= DECADES]
+        decades = -np.log10(numbers["margin"][near])
+        logarithms = np.log10([numbers[name][near] for name in ("condition_analytic", "largest")])
+        analytic, largest = np.polyfit(decades, logarithms.T, 1)[0].tolist()
+        nearest = float(numbers["largest"][place_of[NEAREST]])
+        found.append((arm, analytic, largest, nearest, float(way["condition"].max())))
     return pd.DataFrame(found, columns=["arm", "condition_analytic", "largest", "nearest", "condition"])
 
 

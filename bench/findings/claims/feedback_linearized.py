@@ -8,8 +8,8 @@ import numpy as np
 
 from bench.base.errors import NoEvidence
 from bench.base.on_first_use import pd
-from bench.experiments.probes import commands
-from bench.experiments.probes.turns import BESIDE, MARGINS_RAD, PERTURBED, SPEED
+from bench.experiments.probe_values import commands
+from bench.experiments.probe_values.turns import BESIDE, MARGINS_RAD, PERTURBED, SPEED
 from bench.experiments.tables.run import MAIN_ENGINE, Run, converged, require_rows
 from bench.findings.amounts import capitalize, count_of, join_words
 from bench.findings.claims import places

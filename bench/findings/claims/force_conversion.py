@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from bench.base.errors import NoEvidence
-from bench.experiments.probes import coordinates
+from bench.experiments.probe_values import coordinates
 from bench.experiments.suites import SUITES
 from bench.experiments.tables.run import WHOLE, Run, require_rows
 from bench.findings.amounts import count_of

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from bench.base.on_first_use import pd
-from bench.experiments.probes.turns import DIRECTIONS, NEAR_GOAL_RAD, PERTURBED
+from bench.experiments.probe_values.turns import DIRECTIONS, NEAR_GOAL_RAD, PERTURBED
 from bench.experiments.tables.run import Run, converged, require_rows
 from bench.experiments.tables.statistics import quantile_estimate
 from bench.findings.amounts import capitalize, count, count_of, join_words, part_of

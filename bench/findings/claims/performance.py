@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from bench.base.errors import NoEvidence
 from bench.base.on_first_use import pd
-from bench.experiments.probes.turns import SPEED
+from bench.experiments.probe_values.turns import SPEED
 from bench.experiments.tables.run import MAIN_ENGINE, Run, require_rows
-from bench.experiments.tables.statistics import bootstrap, quantile, quantile_estimate
+from bench.experiments.tables.statistics import (
+    Estimate,
+    percentile_estimate,
+    quantile,
+    quantile_estimate,
+    resampled_quantile,
+)
 from bench.findings.amounts import capitalize, count_of, join_words, part_of
 from bench.findings.claims import adequacy, tables
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy, is_without_memory, whose
@@ -111,10 +115,11 @@ def c12(run: Run) -> tuple[Word, Evidence]:
 def c17(run: Run, engine: str) -> tuple[Word, Evidence]:
     """Return the three laws against the three tests of performance and the test of cost."""
     linear = closed_form.linear_settling(*run.gains())
-    by_name = {one.name: one for one in adequacy.every(run, engine)}
+    by_name = {law.name: law for law in adequacy.every(run, engine, THREE)}
     if not set(THREE) <= set(by_name):
         raise NoEvidence(f"not all of {', '.join(THREE)} ran by {engine}: run a suite without narrowing it")
-    three, known = [by_name[name] for name in THREE], adequacy.of_three(run)
+    three = [by_name[name] for name in THREE]
+    known = adequacy.of_three(run)
     every = {name: adequacy.examine(law, known, linear, {}) for name, law in zip(NAMES, three, strict=True)}
     asked = {name: tested.among(adequacy.BOTH) for name, tested in every.items()}
     adequate = [name for name, tested in asked.items() if tested.passes]
@@ -312,22 +317,24 @@ def c31(run: Run) -> tuple[Word, Evidence]:
     )
 
 
-def feedback_gain(run: Run) -> Any:
+def feedback_gain(run: Run) -> Estimate:
     """Return how many times as long 99 % of the starts take with the rotation-matrix law, at the run's gains."""
     matrix, _, feedback = _of_the_three(run)
     return _gain(tables.settling_times(feedback), tables.settling_times(matrix))
 
 
-def _gain(own: np.ndarray, other: np.ndarray) -> Any:
+def _gain(own: np.ndarray, other: np.ndarray) -> Estimate:
     """Return the other's time in which nearly all settle over its own; resampled by starts."""
+    quantiles = np.array([quantile(times, NEARLY_ALL) for times in (own, other)])
+    resampled = np.stack([resampled_quantile(times, NEARLY_ALL) for times in (own, other)])
+    return percentile_estimate(_ratio(*quantiles), _ratio(*resampled))
 
-    def ratio(drawn: np.ndarray, axis: Sequence[float] | np.ndarray) -> Any:
-        quantiles = quantile(drawn, NEARLY_ALL, axis=-2)
-        with np.errstate(invalid="ignore"):
-            ratios = quantiles[..., 1] / quantiles[..., 0]
-        return np.where(np.isnan(ratios), 1.0, ratios)  # neither settles
 
-    return bootstrap(np.stack([own, other], axis=1), ratio)
+def _ratio(own: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Return other / own, 1 where neither settles: both are infinite there."""
+    with np.errstate(invalid="ignore"):
+        ratios = other / own
+    return np.where(np.isnan(ratios), 1.0, ratios)
 
 
 @claim("C35")
@@ -359,7 +366,7 @@ def c35(run: Run) -> tuple[Word, Evidence]:
 def c36(run: Run) -> tuple[Word, Evidence]:
     """Return which tests of performance each of the three lacks, exact boundary points included."""
     small, known = closed_form.linear_settling(*run.gains()), adequacy.of_three(run)
-    three = require_rows([one for one in adequacy.every(run, MAIN_ENGINE) if one.name in THREE], "law of the paper")
+    three = require_rows(adequacy.every(run, MAIN_ENGINE, THREE), "law of the paper")
     tested = {law.name: adequacy.examine(law, known, small, {}).among(TESTS) for law in three}
     in_words = dict(zip(THREE, IN_WORDS, strict=True))
     told = " ".join(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bench.experiments.probes import variables
+from bench.experiments.probe_values import variables
 from bench.experiments.tables.run import Run
 from bench.experiments.tables.statistics import quantile_estimate
 from bench.findings.amounts import capitalize, count_of

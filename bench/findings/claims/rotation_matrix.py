@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from bench.base.on_first_use import pd
-from bench.experiments.probes.turns import GAINS
+from bench.experiments.probe_values.turns import GAINS
 from bench.experiments.tables.run import MAIN_ENGINE, Run, require_rows
-from bench.experiments.tables.statistics import bootstrap
+from bench.experiments.tables.statistics import Estimate, percentile_estimate, resampled_slope
 from bench.findings.amounts import capitalize, count, count_of
 from bench.findings.claims import places
 from bench.findings.claims.adequacy import CALLS
@@ -124,7 +123,7 @@ def c03(run: Run, engine: str) -> tuple[Word, Evidence]:
     """Judge the settling time by angle, its slope towards 180°, and the exact 180° rotations."""
     uniform = episodes_of(run, LAW, engine, "uniform")
     sure = require_rows(uniform[settled(uniform)], "uniform start that settles")
-    growth = bootstrap(sure[["angle0_rad", "settling_time_s"]].to_numpy(float), _slope)
+    growth = _slope(sure["angle0_rad"].to_numpy(float), sure["settling_time_s"].to_numpy(float))
     turns = episodes_of(run, LAW, engine, "half-turn")
     short = places.boundary_distance(turns)["half_turn"]
     decades = -np.log10(short.clip(lower=1e-17))
@@ -153,11 +152,12 @@ def c03(run: Run, engine: str) -> tuple[Word, Evidence]:
     )
 
 
-def _slope(pairs: np.ndarray, axis: Sequence[float] | np.ndarray) -> Any:
-    """Least-squares slope of the second of each pair against the first."""
-    from_mean = pairs - pairs.mean(axis=-2, keepdims=True)
+def _slope(x: np.ndarray, y: np.ndarray) -> Estimate:
+    """Return the least-squares slope of y against x, resampled by starts."""
+    from_mean = x - x.mean()
     with np.errstate(invalid="ignore"):  # one start has no slope
-        return (from_mean[..., 0] * from_mean[..., 1]).sum(axis=-1) / (from_mean[..., 0] ** 2).sum(axis=-1)
+        value = (from_mean * (y - y.mean())).sum() / (from_mean**2).sum()
+    return percentile_estimate(value, resampled_slope(x, y))
 
 
 @claim("C04")

@@ -12,16 +12,23 @@ from typing import Any
 
 import numpy as np
 
-from bench.base.on_first_use import Turn, pd
+from bench.base.on_first_use import pd
 from bench.experiments.tables.run import Run, require_rows
+from bench.findings.claims.once import once_a_run
+from bench.findings.claims.places import turns_of
 from bench.findings.claims.tables import evidence
 from bench.findings.claims.verdict import Evidence, Word
 from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM, hybrid
+from bench.law.control.setpoint import ContactParameters
+from bench.law.inputs import Gains
 
 PROBE, BASE = "wrench-probe", "hybrid-base"
 MEASURED = tuple(f"c_{i}{j}" for i in "xyz" for j in "xyz")
 PAIRED = ("task", "arm", "form", "pose", "complies")
 """What two controllers' rows have in common: the same arm, scene, frame of the hand, order and form."""
+
+OF_POSES = (*Gains._fields, *ContactParameters._fields, "horizon_s", "alpha", "beta", "gamma", "outcome", *MEASURED)
+"""Columns that measured compliances are compared by, with each other and with their closed form."""
 
 DECIDES = f"""
     We simulated several variants of force control (the column `form` of compliance.parquet). The verdict comes from the
@@ -81,7 +88,7 @@ def beside_base(run: Run, representation: str, orders: tuple[str, ...], forms: t
 
     A row each arm, form, pose and order that both have; cos_beta and from_zero (the angle of R) [rad] are added.
     """
-    both = paired(run, representation, forms, task=PROBE)
+    both = paired(run, representation, forms, OF_POSES, PROBE)
     for order in orders:
         require_rows(
             both[both["complies"] == order],
@@ -89,17 +96,28 @@ def beside_base(run: Run, representation: str, orders: tuple[str, ...], forms: t
         )
     both = both[both["complies"].isin(orders)].reset_index(drop=True)
     angles = both[["alpha", "beta", "gamma"]].to_numpy()
-    from_zero = Turn.from_euler("ZYX", angles).magnitude()
-    return both.assign(cos_beta=np.cos(both["beta"]), from_zero=from_zero)
+    return both.assign(cos_beta=np.cos(both["beta"]), from_zero=turns_of(angles))
 
 
-def paired(run: Run, representation: str, forms: tuple[str, ...], **words: str) -> pd.DataFrame:
-    """Rows of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`), of some forms."""
+@once_a_run
+def paired(
+    run: Run, representation: str, forms: tuple[str, ...], columns: tuple[str, ...], task: str = ""
+) -> pd.DataFrame:
+    """Rows of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`), of some forms.
+
+    columns: what is compared, beside PAIRED. task: the only one whose rows are compared; all if it is empty.
+    """
+    words = {"task": task} if task else {}
     own = run.table("compliance", controller="hybrid", representation=representation, **words)
     base = run.table("compliance", controller=BASE, **words)
-    own, base = (one[one["form"].isin(forms)] for one in (own, base))
-    own, base = (one.assign(**{name: one[name].astype(str) for name in PAIRED}) for one in (own, base))
+    own, base = (_columns_of(rows, forms, columns) for rows in (own, base))
     return own.merge(base, on=list(PAIRED), suffixes=("", "_base"))
+
+
+def _columns_of(rows: pd.DataFrame, forms: tuple[str, ...], columns: tuple[str, ...]) -> pd.DataFrame:
+    """Return some columns of the rows of some forms, and PAIRED as plain words, which two frames are merged by."""
+    chosen = rows.loc[rows["form"].isin(forms).to_numpy(), [*PAIRED, *columns]]
+    return chosen.assign(**{name: chosen[name].astype(object) for name in PAIRED})
 
 
 def compliances(rows: pd.DataFrame, suffix: str = "") -> np.ndarray:
@@ -113,8 +131,6 @@ def predicted(rows: pd.DataFrame, representation: str = "") -> np.ndarray:
     import tasks
     from bench.findings.theory.compliance_theory import compliance
     from bench.law.contenders.registry import contenders
-    from bench.law.control.setpoint import ContactParameters
-    from bench.law.inputs import Gains
     from bench.law.so3 import from_quaternion
     from tasks.domains.wrench_probe import SPECIFICATIONS
     from tasks.rotations import zyx

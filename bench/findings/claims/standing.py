@@ -7,6 +7,7 @@ a call takes in those times, never by a price of ours.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -44,6 +45,10 @@ class Operations(NamedTuple):
 
     def __str__(self) -> str:
         return f"{self.flops} and {self.calls}"
+
+    def without(self, part: Operations) -> Operations:
+        """Return what is left without a part of them."""
+        return Operations(self.flops - part.flops, self.calls - part.calls)
 
     def weighed(self, price: float) -> float:
         """Flops with a call counted as so many."""
@@ -145,15 +150,34 @@ def price_of_a_call(times: Times, operations: dict[str, Operations]) -> float:
 
     It is not a number where fewer than FEWEST counted laws were timed, or a flop takes no time in the fit.
     """
-    from scipy.optimize import nnls
-
     prices = []
     for one in times:
         known = [name for name in one if name in operations]
         if len(known) < FEWEST:
             continue
         amounts = np.array([(1.0, *operations[name]) for name in known])
-        _, flop, call = nnls(amounts, np.array([one[name].value for name in known]))[0]
+        _, flop, call = fit_nonnegative(amounts, np.array([one[name].value for name in known]))
         if flop > 0.0:
             prices.append(call / flop)
     return float(np.median(prices)) if prices else float("nan")
+
+
+def fit_nonnegative(A: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return x >= 0 with the least |A x - b|: shapes (m, n), (m,) and (n,), n small, columns of A independent.
+
+    At the minimum, the elements of x that are not zero solve the problem without a bound. So of all choices of these
+    elements, that one is taken which leaves the least and has none below zero (C. Lawson, R. Hanson, Solving Least
+    Squares Problems, 1974, chapter 23).
+    """
+    count = A.shape[1]
+    best, least = np.zeros(count), float(np.linalg.norm(b))
+    for flags in itertools.product((False, True), repeat=count):
+        chosen = np.array(flags)
+        if not chosen.any():
+            continue
+        x = np.zeros(count)
+        x[chosen] = np.linalg.lstsq(A[:, chosen], b, rcond=None)[0]
+        left = float(np.linalg.norm(A @ x - b))
+        if x.min() >= 0.0 and left < least:
+            best, least = x, left
+    return best

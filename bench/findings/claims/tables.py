@@ -75,15 +75,15 @@ def starts_at_speed(run: Run, law: str, engine: str = MAIN_ENGINE) -> list[Spun]
 
     There are none where no map has the law with these gains by this engine.
     """
-    from bench.findings.maps import count_in, counted, spun
+    from bench.findings.maps import counted, list_spun, spun_in
 
     if "counted" in run.frames:
-        counts = run.frames["counted"]
+        spun = list_spun(run.frames["counted"])
     elif "map" in run.frames:
-        counts = counted(run.frames["map"])
+        spun = list_spun(counted(run.frames["map"]))
     else:
-        counts = count_in(RESULTS / "maps")
-    return spun(counts, law, run.gains(), engine)
+        spun = spun_in(RESULTS / "maps")
+    return spun.get((law, run.gains(), engine), [])
 
 
 WHOLE_PERCENT = 100.0

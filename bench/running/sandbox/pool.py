@@ -26,9 +26,6 @@ TURNS, MOST_KEPT = 256, 8
 """Threads that may have a process at work at once; and processes that are kept, compiled code and
 all, until another law needs one: each takes 0.2 GB."""
 
-SHORT = 1 << 16
-"""Bytes of an answer that is no rows."""
-
 
 class LawProcess(IsolatedProcess):
     """A process of a law.
@@ -56,7 +53,7 @@ class LawProcess(IsolatedProcess):
         """
         if self.plan is not None:
             try:
-                self.ask({"plan": self.plan}, READY, most=SHORT)
+                self.ask({"plan": self.plan}, READY)
             except NoAnswer as error:
                 # A process without the law is of no use.
                 error.is_over = True
@@ -64,7 +61,7 @@ class LawProcess(IsolatedProcess):
             self.plan = None
         place = (unit.experiment, unit.contender, unit.engine, unit.selector, unit.arm)
         if place not in self.prepared:
-            self.ask({"key": unit.key}, READY, most=SHORT)
+            self.ask({"key": unit.key}, READY)
             self.prepared.add(place)
 
     def make_rows(self, unit: Unit, stretch: Unit, limit_s: float) -> pa.Table:

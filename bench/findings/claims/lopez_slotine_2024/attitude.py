@@ -4,7 +4,7 @@ import math
 
 from bench.base.errors import NoEvidence
 from bench.base.on_first_use import pd
-from bench.experiments.probes import sliding
+from bench.experiments.probe_values import sliding
 from bench.experiments.tables.run import FREE_BODY, MAIN_ENGINE, Run, require_rows
 from bench.findings.amounts import count_of
 from bench.findings.claims import places
