@@ -55,7 +55,7 @@ class NoTable(BadResults):
 
 
 class NoEvidence(BenchError):
-    """A run has no rows of what is asked; it says nothing about it, which is never a pass."""
+    """A run has no rows about a question; it decides nothing then, and is never a pass."""
 
 
 class LostWorkers(BenchError):
