@@ -115,7 +115,7 @@ def read_declared(path: Path, more: dict[str, Callable[[], list[Column]]]) -> Ta
     groups: dict[str, Callable[[], list[Column]]] = {}
     for name in words["columns"]:
         if name.isupper():
-            groups[name] = functools.partial(SHARED.get, name, [])
+            groups[name] = functools.partial(list, SHARED.get(name, ()))
     groups |= more
     key: list[str] = []
     for word in words["key"]:
