@@ -8,8 +8,10 @@ torque, and texts "title" and "source". Nothing else may act on it (viscous damp
 
 is exact: the controller's model is perfect. `arm_check.py` holds a file to this. `variations.py` makes of it the arm as
 it is, by numbers where they are known: <numeric> "hand" (m x y z Ixx Iyy Izz, of a massless body "tool"), "motors"
-(least, usual and greatest inertia [kg m^2], if none is published) and "gains" (kp and damping ratio). A folder is read
-at the time of the call, and what was made of a text is kept by the text, not by the name.
+(least, usual and greatest inertia [kg m^2], if none is published), "torque-rate" [N m/s] and "gains" (kp and damping
+ratio). At home the Jacobian's condition number is under 20, |cos beta| over a half, and gravity takes at most half of
+the rated torques. An arm takes part in contact if its last body has a site "wrist". A folder is read at the time of the
+call, and what was made of a text is kept by the text, not by the name.
 """
 
 from __future__ import annotations

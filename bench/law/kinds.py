@@ -91,10 +91,10 @@ class Law(LawFields):
             the caller passes this memory unchanged to the next control step. A law with memory
             does not need the control period.
         property: what is proved about convergence: "local", "almost global", "global with memory" or
-            "none", or the gains for which it is proved.
+            "none", with the condition where there is one, such as the gains or a start from rest.
         file: the `UserFile` of a law that a user wrote; empty for our laws.
         is_beyond_the_paper: True for a law that is not in the paper. We simulate such a law from
-            fewer starts. The former name `later` is accepted for one more release.
+            fewer start sets. The former name `later` is accepted for one more release.
         role: "contestant"; "control", "costing" or "actuator" for the few laws that are here for
             another reason than to be compared.
         stiffness: stiffness near the goal about the axes n_d, o_d and a_d of the goal, divided by kp.

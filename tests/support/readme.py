@@ -2,9 +2,11 @@
 
 import re
 
+from bench.base.files import read_json
 from bench.experiments.tables.run import Run
 from bench.findings.answer import find_answer
 from bench.findings.claims import format_tally, judge_possible
+from bench.findings.claims.at_gains import STORED
 from bench.findings.conclusions import conclude
 from bench.findings.selection.robots import RUN
 
@@ -34,10 +36,14 @@ def list_conclusions() -> list[str]:
 
 
 def count_claims() -> str:
-    """Return the sentence that counts the verdicts on all claims."""
+    """Return the sentence that counts the verdicts on all claims.
+
+    A claim that is newer than the study of other runs is not among them: who adds one leaves the README as it is.
+    """
+    studied = read_json(STORED)["reference"]
     verdicts, _ = judge_possible(Run(RUN))
-    words = format_tally(verdict.word for verdict in verdicts)
-    return f"Of his {len(verdicts)} claims that can be checked, {words}."
+    words = [verdict.word for verdict in verdicts if verdict.claim.id in studied]
+    return f"Of his {len(words)} claims that can be checked, {format_tally(words)}."
 
 
 def list_needs() -> list[str]:

@@ -130,7 +130,7 @@ def formula(tex: str) -> str:
 class PageTable:
     """A table of a page, in Markdown: numbers to the right, words to the left, gaps as a dash.
 
-        TIMES = Table("Law | Starts | Settled [%]:.1f | Error", {"Error": power})
+        TIMES = PageTable("Law | Starts | Settled [%]:.1f | Error", {"Error": power})
         TIMES(rows)
 
     Args:
