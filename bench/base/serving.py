@@ -49,6 +49,8 @@ def serve(make: Callable[[dict, Line], bytes]) -> None:
 def _answer(make: Callable[[dict, Line], bytes], request: dict, line: Line) -> bytes:
     limits = TimeLimits(*request["limits"])
     if request["in_fork"]:
+        # What each fork costs this process must not add up to the limit of an earlier request.
+        lift_processor_limit()
         return answer_in_fork(lambda: make(request, line), limits, line)
     limit_processor_time(limits.processor_s)
     return make(request, line)
@@ -144,3 +146,9 @@ def limit_processor_time(processor_s: float, is_last: bool = False) -> None:
     _, most = resource.getrlimit(resource.RLIMIT_CPU)
     ends = math.ceil(used.ru_utime + used.ru_stime + processor_s)
     resource.setrlimit(resource.RLIMIT_CPU, (ends, ends + 1 if is_last else most))
+
+
+def lift_processor_limit() -> None:
+    """Let this process use as much processor time as it was allowed when it began."""
+    _, most = resource.getrlimit(resource.RLIMIT_CPU)
+    resource.setrlimit(resource.RLIMIT_CPU, (most, most))

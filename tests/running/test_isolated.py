@@ -61,6 +61,17 @@ def test_fork_that_misbehaves_costs_its_own_answer(lasting, deed):
     assert lasting.ask({"deed": "answers"}, LIMITS) == b'"answers"'
 
 
+def test_forks_do_not_use_up_the_limit_of_the_request_before_them():
+    """Four forks cost the process 2.4 s of processor time: more than its 1 s, rounded up."""
+    with IsolatedProcess(MODULE) as process:
+        process.ask({"deed": "makes forks dear"}, LIMITS)
+        for _ in range(4):
+            assert process.ask({"deed": "answers"}, LIMITS, in_fork=True) == b'"answers"'
+        with pytest.raises(NoAnswer) as raised:
+            process.ask({"deed": "loops"}, LIMITS)
+    assert raised.value.fate == HUNG
+
+
 @pytest.mark.parametrize("in_fork", [False, True])
 def test_mistake_of_the_caller_comes_back_as_it_is(lasting, in_fork):
     with pytest.raises(Refused, match=r"^kp 0 is no gain$"):

@@ -11,6 +11,16 @@ from bench.base.errors import BadNumber
 from bench.base.isolated import Line
 from bench.base.serving import send_progress, serve
 
+FORK_S = 0.6
+"""Of processor time, for each fork."""
+
+
+def use_processor() -> None:
+    """Use FORK_S of it."""
+    ends = time.process_time() + FORK_S
+    while time.process_time() < ends:
+        pass
+
 
 def misbehave(request: dict, line: Line) -> bytes:
     """Do what the request says, and answer."""
@@ -43,6 +53,8 @@ def misbehave(request: dict, line: Line) -> bytes:
     if deed == "starts another":
         process = subprocess.Popen(["sleep", "1000"], start_new_session=True)
         return str(process.pid).encode()
+    if deed == "makes forks dear":
+        os.register_at_fork(before=use_processor)
     if deed == "makes progress":
         for number in (1, 2, 3):
             send_progress(line, number)
