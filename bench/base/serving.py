@@ -16,6 +16,7 @@ from typing import NoReturn
 from bench.base.isolated import (
     CRASHED,
     HUNG,
+    KILLED,
     PROGRESS,
     Line,
     NoAnswer,
@@ -123,7 +124,8 @@ def answer_in_fork(
     if code in (-signal.SIGXCPU, -signal.SIGKILL) and used_s >= limits.processor_s:
         raise NoAnswer(HUNG, describe_use(limits.processor_s))
     ending = describe_exit(code)
-    raise NoAnswer(CRASHED, f"it ended its process, {ending}", ending)
+    fate = KILLED if code == -signal.SIGKILL else CRASHED
+    raise NoAnswer(fate, f"it ended its process, {ending}", ending)
 
 
 def _answer_and_exit(make: Callable[[], bytes], processor_s: float, line: Line) -> NoReturn:

@@ -29,7 +29,7 @@ BADLY = {
 IN_A_FORK = BADLY | {
     "exits": (CRASHED, "it ended its process, exit code 3", False),
     "leaves": (CRASHED, "it ended its process, exit code 1", False),
-    "kills itself": (CRASHED, "it ended its process, SIGKILL", False),
+    "kills itself": (KILLED, "it ended its process, SIGKILL", False),
     "loops": (HUNG, "it did not return within 1 s of processor time", False),
     "sleeps": (HUNG, "it did not return within 4 s", False),
 }
