@@ -1,16 +1,18 @@
 """Faulty laws, as people write them, are named for what they are; our own raise no false alarm."""
 
+import re
 from collections import defaultdict
 
 import pytest
 from support.command_line import bench
-from support.user_law import law_text
+from support.user_law import law_text, spring_text
 
 from bench.experiments.experiment import rows_of
 from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.judge_law import ENGINE, START_SETS, describe_law, plan_of
+from bench.findings.judge_law import ENGINE, START_SETS, describe_law, judge_laws, plan_of
 from bench.findings.why import ends, sentences
+from bench.law.contenders.described_law import described
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import contenders_of, find_contender
 from bench.law.kinds import CONTROL
@@ -127,3 +129,24 @@ def test_bench_judge_says_why_by_exit_code_too(capsys, tmp_path, spring, code, f
     assert first in said.out.splitlines()[0]
     assert "threshold" in said.out.lower()
     assert "\nmine  " in said.out
+
+
+FROM = r"from \d+% of [\d,]+ starts"
+LOST_STARTS = {
+    "raises": ("raise ValueError('no')", rf"raises: ValueError: no, {FROM}, the nearest at [\d.]+ deg$"),
+    "hangs": (
+        "while x == x: x = x + 1.0",
+        rf"hangs: it did not return within 1 s of processor time, {FROM}; "
+        "up to 25 are lost together, and after 3 such losses all that follow$",
+    ),
+}
+"""Law -> its deed where R.n[0] < -0.9, and what the judge's heading says of its lost starts."""
+
+
+@pytest.mark.parametrize("name", LOST_STARTS)
+def test_heading_names_the_nearest_lost_start_only_of_a_law_that_raises(tmp_path, name):
+    deed, heading = LOST_STARTS[name]
+    path = tmp_path / "own.py"
+    path.write_text(spring_text("if R.n[0] < -0.9:", f"    {deed}", name=name))
+    [judgement] = judge_laws([described(path)], limit_s=1.0)
+    assert re.match(heading, judgement.heading), judgement.heading
