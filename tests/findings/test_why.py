@@ -1,6 +1,5 @@
 """Faulty laws, as people write them, are named for what they are; our own raise no false alarm."""
 
-import re
 from collections import defaultdict
 
 import pytest
@@ -131,22 +130,14 @@ def test_bench_judge_says_why_by_exit_code_too(capsys, tmp_path, spring, code, f
     assert "\nmine  " in said.out
 
 
-FROM = r"from \d+% of [\d,]+ starts"
-LOST_STARTS = {
-    "raises": ("raise ValueError('no')", rf"raises: ValueError: no, {FROM}, the nearest at [\d.]+ deg$"),
-    "hangs": (
-        "while x == x: x = x + 1.0",
-        rf"hangs: it did not return within 1 s of processor time, {FROM}; "
-        "up to 25 are lost together, and after 3 such losses all that follow$",
-    ),
-}
-"""Law -> its deed where R.n[0] < -0.9, and what the judge's heading says of its lost starts."""
+NEAREST, TOGETHER = ", the nearest at ", "; up to 25 are lost together, and after 3 such losses all that follow"
 
 
-@pytest.mark.parametrize("name", LOST_STARTS)
-def test_heading_names_the_nearest_lost_start_only_of_a_law_that_raises(tmp_path, name):
-    deed, heading = LOST_STARTS[name]
+@pytest.mark.parametrize(
+    ("deed", "words"), [("raise ValueError('no')", NEAREST), ("while x == x: x = x + 1.0", TOGETHER)]
+)
+def test_heading_names_the_nearest_lost_start_only_of_a_law_that_raises(tmp_path, deed, words):
     path = tmp_path / "own.py"
-    path.write_text(spring_text("if R.n[0] < -0.9:", f"    {deed}", name=name))
+    path.write_text(spring_text("if R.n[0] < -0.9:", f"    {deed}"))
     [judgement] = judge_laws([described(path)], limit_s=1.0)
-    assert re.match(heading, judgement.heading), judgement.heading
+    assert [known for known in (NEAREST, TOGETHER) if known in judgement.heading] == [words]

@@ -1,7 +1,6 @@
 """A user's law that raises, exits, hangs or is no law at all in some states costs its own rows, never the run."""
 
 import dataclasses
-import os
 import textwrap
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -31,7 +30,6 @@ from tasks.rotations import columns
 from tasks.verdict import CRASHED, HUNG, OUTCOMES
 
 LIMIT_S = 1.0
-CRASHED_OR_HUNG = set(sandbox.LOST)
 
 HANGS = "while {condition}: x = x + 1e-9"
 """A line of a law that never returns from a state."""
@@ -94,76 +92,44 @@ def test_perturbed_law_that_hangs_loses_the_whole_unit(tmp_path):
     assert rows[["final_angle_rad", "tail_rms_rad", "peak_u", "variation"]].isna().all(axis=None)
 
 
-STRIKES = """
-STRUCK = "{struck}"
-
-def strike(state):
-    "End the process that makes rows, {most} times."
-    if "running/sandbox" in sys.argv[0] and len(os.listdir(STRUCK)) < {most}:
-        open(os.path.join(STRUCK, str(time.time_ns())), "w").close()
-        {deed}
-    return 0.0
-"""
+STRIKE = (
+    "if 'running/sandbox' in sys.argv[0] and len(os.listdir({struck!r})) < {most}: "
+    "open(os.path.join({struck!r}, str(time.time_ns())), 'w').close(); {deed}"
+)
+"""What a law does in its first calls in a process that makes rows."""
 SIGKILL = "os.kill(os.getpid(), 9)"
-OF_THE_PARENT = "os.kill(os.getppid(), 9) or time.sleep(9)"
+LATER = "; the same command tries them again"
 
 
 def plan_that_strikes(folder: Path, deed: str, most: int, count: int = 4) -> Plan:
-    """Plan a sound law on the engine in Python, which does the deed in its first calls."""
+    """Plan a law on the engine in Python that does the deed so many times, and is sound then."""
     struck = folder / "struck"
     struck.mkdir()
-    path = folder / "mine.py"
-    head = STRIKES.format(struck=struck, most=most, deed=deed)
-    text = spring_text("x = x + strike(R)")
-    path.write_text(text.replace("@kernel", f"{head}\n@kernel", 1))
-    words = {"tasks": ("free-body",), "start_sets": ("uniform",), "engines": ("reference",)}
-    request = Request("quick", tuple(contenders_of(described(path))), count=count, horizon_s=0.05, **words)
-    return planning.make(dataclasses.replace(request, experiments=("free-body",)))
+    return plan_of(folder, STRIKE.format(struck=str(struck), most=most, deed=deed), engine="reference", count=count)
 
 
-@pytest.mark.parametrize("deed", [SIGKILL, OF_THE_PARENT])
-def test_law_whose_process_was_killed_once_loses_nothing(tmp_path, capsys, deed):
-    plan = plan_that_strikes(tmp_path, deed, most=1)
-    with sandbox.Sandbox(plan) as box:
-        [rows] = [box.rows(unit).to_pandas() for unit in plan.units]
-        assert len(os.listdir(tmp_path / "struck")) == 1
-        assert CRASHED_OR_HUNG.isdisjoint(rows["outcome"].astype(str))
-        assert (box.notes, box.again) == ([], set())
-    assert "mine: it ended its process, SIGKILL; it is tried once more, alone" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize("deed", [SIGKILL, OF_THE_PARENT])
-def test_unit_whose_process_was_killed_twice_is_tried_again_by_the_same_command(tmp_path, deed):
-    plan = plan_that_strikes(tmp_path, deed, most=2)
-    [unit] = plan.units
-    out = tmp_path / "run"
+@pytest.mark.parametrize("deed", [SIGKILL, "os.kill(os.getppid(), 9); time.sleep(9)"])
+def test_law_whose_process_is_killed_is_tried_once_more_and_then_by_the_same_command(tmp_path, deed):
+    """Here it is killed twice by the first command, and once by the second, which loses nothing."""
+    plan, out = plan_that_strikes(tmp_path, deed, most=3), tmp_path / "run"
     run.run(plan, out, workers=1)
-    assert set(store.read(out, "episodes")["outcome"]) == {"crashed"}
-    provenance = read_provenance(out)
-    assert provenance["again"] == [unit.key]
-    assert any("episodes are crashed; the same command tries them again" in line for line in provenance["lost"])
+    about = read_provenance(out)
+    assert about["again"] == [plan.units[-1].key]
+    assert about["lost"][0].endswith(f": it ended its process, SIGKILL; its 4 episodes are crashed{LATER}")
     run.run(plan, out, workers=1)
-    assert CRASHED_OR_HUNG.isdisjoint(store.read(out, "episodes")["outcome"])
-    assert "again" not in read_provenance(out)
     assert read_provenance(out)["lost"] == []
+    assert set(store.read(out, "episodes")["outcome"]) == {"timed-out"}
 
 
-def test_rest_of_a_law_that_was_killed_three_times_is_tried_again_by_the_same_command(tmp_path):
-    plan = plan_that_strikes(tmp_path, SIGKILL, most=6, count=20)
-    with sandbox.Sandbox(plan) as box:
-        assert [box.packed(unit) for unit in plan.units] == [None] * len(plan.units)
-        assert box.again == {unit.key for unit in plan.units}
-    assert len(plan.units) > sandbox.MOST_LOST == len(box.notes) - 1
-    assert box.notes[-1].endswith("are not tried; the same command tries them again")
-
-
-def test_threads_that_lose_stretches_of_a_law_at_once_give_it_up_once(tmp_path):
-    plan = plan_that_strikes(tmp_path, "os._exit(0)", most=1000, count=40)
+@pytest.mark.parametrize(("deed", "later"), [(SIGKILL, LATER), ("os._exit(0)", "")])
+def test_threads_that_lose_units_of_a_law_at_once_give_it_up_once(tmp_path, deed, later):
+    plan = plan_that_strikes(tmp_path, deed, most=99, count=20)
     with sandbox.Sandbox(plan) as box, ThreadPoolExecutor(4) as threads:
-        tables = list(threads.map(box.rows, plan.units))
-    assert all(set(table["outcome"].to_pylist()) == {"crashed"} for table in tables)
-    assert len([note for note in box.notes if "it was lost 3 times" in note]) == 1
-    assert box.again == set()
+        is_made = [content is not None for content in threads.map(box.packed, plan.units)]
+    assert is_made == [not (later and box.has(unit)) for unit in plan.units]
+    assert [note for note in box.notes if "3 times" in note] == [
+        f"mine: it was lost 3 times; its other episodes count as crashed and are not tried{later}"
+    ]
 
 
 def test_process_of_a_law_ends_with_the_run(tmp_path):

@@ -11,13 +11,10 @@ from bench.base.errors import BadNumber
 from bench.base.isolated import Line
 from bench.base.serving import send_progress, serve
 
-FORK_S = 0.6
-"""Of processor time, for each fork."""
-
 
 def use_processor() -> None:
-    """Use FORK_S of it."""
-    ends = time.process_time() + FORK_S
+    """Use 0.6 s of processor time."""
+    ends = time.process_time() + 0.6
     while time.process_time() < ends:
         pass
 
