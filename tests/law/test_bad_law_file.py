@@ -100,14 +100,19 @@ def test_former_name_of_a_field_is_accepted_with_a_note(capsys, tmp_path):
     assert said.err.count("write is_beyond_the_paper= in place of later=") == 1
 
 
-def test_law_file_with_the_names_of_today_has_no_note(capsys, tmp_path):
-    said = bench(
-        capsys,
-        "list",
-        "regulators",
-        "--law",
-        written(tmp_path, with_fields("is_beyond_the_paper=True")),
-    )
+@pytest.mark.parametrize(
+    "text",
+    [
+        with_fields("is_beyond_the_paper=True"),
+        # A mark of the coding at the beginning, as some editors write it.
+        "\ufeff" + with_fields("is_beyond_the_paper=True"),
+        # A call of another function than Law.
+        with_fields("is_beyond_the_paper=True") + "\nREST = dict(later=True)\n",
+    ],
+    ids=["plain", "byte-order-mark", "another-call"],
+)
+def test_law_file_with_the_names_of_today_has_no_note(capsys, tmp_path, text):
+    said = bench(capsys, "list", "regulators", "--law", written(tmp_path, text))
     assert (said.code, said.err) == (0, "")
 
 

@@ -110,8 +110,16 @@ CURES = {
 
 
 def note_former_fields(text: str) -> str:
-    """Return a note on fields that a file writes by their former names; empty if there are none."""
-    keywords = {node.arg for node in ast.walk(ast.parse(text)) if isinstance(node, ast.keyword)}
+    """Return a note on fields of a `Law` that a file writes by their former names; empty if there are none."""
+    try:
+        # Of bytes, for a text may begin with a mark of its coding.
+        nodes = list(ast.walk(ast.parse(text.encode())))
+    except (SyntaxError, RecursionError):
+        return ""
+    keywords: set[str | None] = set()
+    for node in nodes:
+        if isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] == Law.__name__:
+            keywords |= {keyword.arg for keyword in node.keywords}
     changes = []
     for former, field in FORMER_FIELDS.items():
         if former in keywords:
