@@ -80,7 +80,7 @@ CRASHED, HUNG, KILLED, FORGED = "crashed", "hung", "killed", "forged"
 ended its process by SIGKILL, perhaps the system for want of memory; what came was no answer."""
 
 DONE, REFUSED, PROGRESS = b"+", b"?", b"~"
-SIGNS = {CRASHED: b"!", HUNG: b"."}
+SIGNS = {CRASHED: b"!", HUNG: b".", KILLED: b"-"}
 """First bytes of an answer: what was asked for; the caller's mistake; a number of what is done so
 far, before the answer itself; or why there is none."""
 

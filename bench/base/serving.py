@@ -16,6 +16,7 @@ from typing import NoReturn
 from bench.base.isolated import (
     CRASHED,
     HUNG,
+    KILLED,
     PROGRESS,
     Line,
     NoAnswer,
@@ -49,6 +50,8 @@ def serve(make: Callable[[dict, Line], bytes]) -> None:
 def _answer(make: Callable[[dict, Line], bytes], request: dict, line: Line) -> bytes:
     limits = TimeLimits(*request["limits"])
     if request["in_fork"]:
+        # What each fork costs this process must not add up to the limit of an earlier request.
+        lift_processor_limit()
         return answer_in_fork(lambda: make(request, line), limits, line)
     limit_processor_time(limits.processor_s)
     return make(request, line)
@@ -121,7 +124,8 @@ def answer_in_fork(
     if code in (-signal.SIGXCPU, -signal.SIGKILL) and used_s >= limits.processor_s:
         raise NoAnswer(HUNG, describe_use(limits.processor_s))
     ending = describe_exit(code)
-    raise NoAnswer(CRASHED, f"it ended its process, {ending}", ending)
+    fate = KILLED if code == -signal.SIGKILL else CRASHED
+    raise NoAnswer(fate, f"it ended its process, {ending}", ending)
 
 
 def _answer_and_exit(make: Callable[[], bytes], processor_s: float, line: Line) -> NoReturn:
@@ -144,3 +148,9 @@ def limit_processor_time(processor_s: float, is_last: bool = False) -> None:
     _, most = resource.getrlimit(resource.RLIMIT_CPU)
     ends = math.ceil(used.ru_utime + used.ru_stime + processor_s)
     resource.setrlimit(resource.RLIMIT_CPU, (ends, ends + 1 if is_last else most))
+
+
+def lift_processor_limit() -> None:
+    """Let this process use as much processor time as it was allowed when it began."""
+    _, most = resource.getrlimit(resource.RLIMIT_CPU)
+    resource.setrlimit(resource.RLIMIT_CPU, (most, most))

@@ -13,7 +13,12 @@ from bench.findings.subjects import describe_readings, find_reading
 
 @click.command("judge", epilog=examples("judge"))
 @click.argument("law")
-@options.valued("--law-limit", 5.0, "Time limit of 25 starts [s].", type=options.LAW_LIMIT)
+@options.valued(
+    "--law-limit",
+    5.0,
+    "Time limit of 25 starts, or of a unit that cannot be cut [s].",
+    type=options.LAW_LIMIT,
+)
 def COMMAND(law: str, law_limit: float) -> None:
     """Judge a law on the free body and explain the result. It takes seconds and writes no file.
 

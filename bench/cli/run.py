@@ -52,8 +52,9 @@ from bench.running.schedulers import check_scheduler
     "--law-limit",
     type=options.LAW_LIMIT,
     metavar="SECONDS",
-    show_default="10, and ten times what ours take",
-    help="A --law that takes longer for 25 starts is stopped there, and their rows say hung.",
+    show_default="10, or 30 of a unit that cannot be cut, and ten times what ours take",
+    help="A --law that takes longer for 25 starts, or for a unit that cannot be cut, is stopped there; "
+    "then all rows of these starts, or of the unit, say hung.",
 )
 @click.option("--dry-run", is_flag=True, help="Print the whole plan; run nothing.")
 def COMMAND(

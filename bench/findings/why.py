@@ -24,6 +24,7 @@ from bench.findings.subjects import SentenceSubject
 from bench.findings.theory.thresholds import near_goal
 from bench.law.contenders.registry import contenders
 from bench.law.kinds import CONTROL
+from bench.running.sandbox.sandbox import MOST_LOST, STRETCH
 from tasks.rules import RULES
 
 CHATTER = 1.0
@@ -179,12 +180,19 @@ def ends(rows: pd.DataFrame, declared: str) -> list[Sentence]:
 
 
 def describe_lost_starts(name: str, rows: pd.DataFrame, reason: str) -> str:
-    """Return a law's name and, if it crashes or hangs, why, from what share of its starts, and from which angle on."""
+    """Return a law's name and, if it crashes or hangs, why, and from what share of its starts.
+
+    If the law raised an error at every lost start, also the angle of the nearest. A start that was lost with its
+    process has no time of failure: it may be lost only because another start of its stretch was.
+    """
     lost = rows[rows["outcome"].isin(("crashed", "hung"))] if reason and len(rows) else rows[:0]
     if lost.empty:
         return f"{name}: {reason}" if reason else name
-    share, nearest = f"{len(lost) / len(rows):.0%} of {len(rows):,}", math.degrees(lost["angle0_rad"].min())
-    return f"{name}: {reason}, from {share} starts, the nearest at {nearest:.3g} deg"
+    text = f"{name}: {reason}, from {len(lost) / len(rows):.0%} of {len(rows):,} starts"
+    if lost["failure_time_s"].isna().any():
+        return f"{text}; up to {STRETCH} are lost together, and after {MOST_LOST} such losses all that follow"
+    nearest = math.degrees(lost["angle0_rad"].min())
+    return f"{text}, the nearest at {nearest:.3g} deg"
 
 
 def is_settling(rows: pd.DataFrame) -> bool:

@@ -26,7 +26,7 @@ def described(plan: Plan, units: Sequence[Unit]) -> dict:
     laws = [one.text for one in plan.request.user_laws if one.name in named]
     return {
         "sources": source_digest(),
-        "settings": {**plan.request.common(), "own": laws},
+        "request": {**plan.request.common(), "user_laws": laws},
         "units": [dataclasses.astuple(unit) for unit in units],
     }
 
@@ -41,7 +41,7 @@ def plan_of(content: dict, read: Callable[[Path, bytes], Law] = described_law.de
             f"the plan was made by the sources {content['sources']}, this process has {source_digest()}; install the "
             "same commit and lock on every machine"
         )
-    settings = dict(content["settings"])
-    laws = tuple(Contender(read(keep_text(text), text.encode())) for text in settings.pop("own"))
-    request = Request(**settings | {"gains": Gains(*settings["gains"]), "laws": laws})
+    words = dict(content["request"])
+    laws = tuple(Contender(read(keep_text(text), text.encode())) for text in words.pop("user_laws"))
+    request = Request(**words | {"gains": Gains(*words["gains"]), "laws": laws})
     return Plan(request, tuple(Unit(*fields) for fields in content["units"]))

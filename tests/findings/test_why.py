@@ -4,13 +4,14 @@ from collections import defaultdict
 
 import pytest
 from support.command_line import bench
-from support.user_law import law_text
+from support.user_law import law_text, spring_text
 
 from bench.experiments.experiment import rows_of
 from bench.experiments.tables.run import Run
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.judge_law import ENGINE, START_SETS, describe_law, plan_of
+from bench.findings.judge_law import ENGINE, START_SETS, describe_law, judge_laws, plan_of
 from bench.findings.why import ends, sentences
+from bench.law.contenders.described_law import described
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import contenders_of, find_contender
 from bench.law.kinds import CONTROL
@@ -127,3 +128,16 @@ def test_bench_judge_says_why_by_exit_code_too(capsys, tmp_path, spring, code, f
     assert first in said.out.splitlines()[0]
     assert "threshold" in said.out.lower()
     assert "\nmine  " in said.out
+
+
+NEAREST, TOGETHER = ", the nearest at ", "; up to 25 are lost together, and after 3 such losses all that follow"
+
+
+@pytest.mark.parametrize(
+    ("deed", "words"), [("raise ValueError('no')", NEAREST), ("while x == x: x = x + 1.0", TOGETHER)]
+)
+def test_heading_names_the_nearest_lost_start_only_of_a_law_that_raises(tmp_path, deed, words):
+    path = tmp_path / "own.py"
+    path.write_text(spring_text("if R.n[0] < -0.9:", f"    {deed}"))
+    [judgement] = judge_laws([described(path)], limit_s=1.0)
+    assert [known for known in (NEAREST, TOGETHER) if known in judgement.heading] == [words]

@@ -231,8 +231,8 @@ def test_chunk_has_the_units_of_every_kind_and_they_arrive_as_they_were_sent(pla
 
 
 def test_chunk_of_one_unit_carries_no_law_of_another(plan):
-    assert len(wire_format.described(plan, plan.units)["settings"]["own"]) == 1
-    assert wire_format.described(plan, plan.of("contact"))["settings"]["own"] == []
+    assert len(wire_format.described(plan, plan.units)["request"]["user_laws"]) == 1
+    assert wire_format.described(plan, plan.of("contact"))["request"]["user_laws"] == []
 
 
 def test_first_unit_of_each_contender_runs_before_the_rest_of_the_one_before_it():

@@ -29,7 +29,7 @@ BADLY = {
 IN_A_FORK = BADLY | {
     "exits": (CRASHED, "it ended its process, exit code 3", False),
     "leaves": (CRASHED, "it ended its process, exit code 1", False),
-    "kills itself": (CRASHED, "it ended its process, SIGKILL", False),
+    "kills itself": (KILLED, "it ended its process, SIGKILL", False),
     "loops": (HUNG, "it did not return within 1 s of processor time", False),
     "sleeps": (HUNG, "it did not return within 4 s", False),
 }
@@ -59,6 +59,14 @@ def test_fork_that_misbehaves_costs_its_own_answer(lasting, deed):
     error = raised.value
     assert (error.fate, str(error), error.is_over) == IN_A_FORK[deed]
     assert lasting.ask({"deed": "answers"}, LIMITS) == b'"answers"'
+
+
+def test_forks_do_not_use_up_the_limit_of_the_request_before_them():
+    """Four forks cost the process 2.4 s of processor time: more than its 1 s, rounded up."""
+    with IsolatedProcess(MODULE) as process:
+        process.ask({"deed": "makes forks dear"}, LIMITS)
+        for _ in range(4):
+            assert process.ask({"deed": "answers"}, LIMITS, in_fork=True) == b'"answers"'
 
 
 @pytest.mark.parametrize("in_fork", [False, True])

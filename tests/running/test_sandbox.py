@@ -3,6 +3,7 @@
 import dataclasses
 import textwrap
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pandas as pd
@@ -13,6 +14,7 @@ from support.user_law import plan_of, spring_text
 
 import tasks
 from bench.base.errors import BadLaw
+from bench.base.provenance import read_provenance
 from bench.experiments import plan as planning
 from bench.experiments.experiment import experiment_of
 from bench.experiments.plan import Plan
@@ -28,7 +30,6 @@ from tasks.rotations import columns
 from tasks.verdict import CRASHED, HUNG, OUTCOMES
 
 LIMIT_S = 1.0
-
 
 HANGS = "while {condition}: x = x + 1e-9"
 """A line of a law that never returns from a state."""
@@ -89,6 +90,46 @@ def test_perturbed_law_that_hangs_loses_the_whole_unit(tmp_path):
     assert len(rows) == plan.episodes()
     assert set(rows["outcome"]) == {"hung"}
     assert rows[["final_angle_rad", "tail_rms_rad", "peak_u", "variation"]].isna().all(axis=None)
+
+
+STRIKE = (
+    "if 'running/sandbox' in sys.argv[0] and len(os.listdir({struck!r})) < {most}: "
+    "open(os.path.join({struck!r}, str(time.time_ns())), 'w').close(); {deed}"
+)
+"""What a law does in its first calls in a process that makes rows."""
+SIGKILL = "os.kill(os.getpid(), 9)"
+LATER = "; the same command tries them again"
+
+
+def plan_that_strikes(folder: Path, deed: str, most: int, count: int = 4) -> Plan:
+    """Plan a law on the engine in Python that does the deed so many times, and is sound then."""
+    struck = folder / "struck"
+    struck.mkdir()
+    return plan_of(folder, STRIKE.format(struck=str(struck), most=most, deed=deed), engine="reference", count=count)
+
+
+@pytest.mark.parametrize("deed", [SIGKILL, "os.kill(os.getppid(), 9); time.sleep(9)"])
+def test_law_whose_process_is_killed_is_tried_once_more_and_then_by_the_same_command(tmp_path, deed):
+    """Here it is killed twice by the first command, and once by the second, which loses nothing."""
+    plan, out = plan_that_strikes(tmp_path, deed, most=3), tmp_path / "run"
+    run.run(plan, out, workers=1)
+    about = read_provenance(out)
+    assert about["again"] == [plan.units[-1].key]
+    assert about["lost"][0].endswith(f": it ended its process, SIGKILL; its 4 episodes are crashed{LATER}")
+    run.run(plan, out, workers=1)
+    assert read_provenance(out)["lost"] == []
+    assert set(store.read(out, "episodes")["outcome"]) == {"timed-out"}
+
+
+@pytest.mark.parametrize(("deed", "later"), [(SIGKILL, LATER), ("os._exit(0)", "")])
+def test_threads_that_lose_units_of_a_law_at_once_give_it_up_once(tmp_path, deed, later):
+    plan = plan_that_strikes(tmp_path, deed, most=99, count=20)
+    with sandbox.Sandbox(plan) as box, ThreadPoolExecutor(4) as threads:
+        is_made = [content is not None for content in threads.map(box.packed, plan.units)]
+    assert is_made == [not (later and box.has(unit)) for unit in plan.units]
+    assert [note for note in box.notes if "3 times" in note] == [
+        f"mine: it was lost 3 times; its other episodes count as crashed and are not tried{later}"
+    ]
 
 
 def test_process_of_a_law_ends_with_the_run(tmp_path):

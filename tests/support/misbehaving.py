@@ -12,6 +12,13 @@ from bench.base.isolated import Line
 from bench.base.serving import send_progress, serve
 
 
+def use_processor() -> None:
+    """Use 0.6 s of processor time."""
+    ends = time.process_time() + 0.6
+    while time.process_time() < ends:
+        pass
+
+
 def misbehave(request: dict, line: Line) -> bytes:
     """Do what the request says, and answer."""
     deed = request["deed"]
@@ -43,6 +50,8 @@ def misbehave(request: dict, line: Line) -> bytes:
     if deed == "starts another":
         process = subprocess.Popen(["sleep", "1000"], start_new_session=True)
         return str(process.pid).encode()
+    if deed == "makes forks dear":
+        os.register_at_fork(before=use_processor)
     if deed == "makes progress":
         for number in (1, 2, 3):
             send_progress(line, number)

@@ -35,15 +35,15 @@ def spring_text(*before: str, name: str = "mine") -> str:
     return law_text(*SPRING, *before, "return (-x, -y, -z)", name=name)
 
 
-def plan_of(folder: Path, body: str, *, engine: str) -> plan.Plan:
-    """Plan our law and a user's, with `body` before its return, from the same four starts."""
+def plan_of(folder: Path, body: str, *, engine: str, count: int = 4) -> plan.Plan:
+    """Plan our law and a user's, with `body` before its return, from the same starts."""
     path = folder / "mine.py"
     path.write_text(spring_text(body, name="mine"))
     laws = [find_contender("rotation-matrix"), *contenders_of(described(path))]
     request = Request(
         "quick",
         tuple(laws),
-        count=4,
+        count=count,
         horizon_s=0.05,
         tasks=("free-body",),
         start_sets=("uniform",),

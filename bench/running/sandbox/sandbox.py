@@ -5,18 +5,23 @@ back is lost: all its episodes are rows with the outcome `hung` or `crashed`. So
 be cut, and an answer that is not the rows asked for (answers.py). After three lost stretches of a law, all
 that is left of its units counts as the third did, without being tried, and this is said once.
 
-A process that is killed while it prepares is started once more, with no other at work; if it is
-killed again, its rows are `crashed` in this run, and the same command tries them again.
+Where a process is killed, perhaps by the system for want of memory, what it was asked is tried once
+more, with no other process of these at work. If it is killed again, all rows of the unit are
+`crashed` in this run, and the same command tries them again. Such losses are counted apart from the
+others; after three, the rest of the law waits for the same command, too.
 
 Limitations: which stretches of a law come after its third lost one depends on the order in which
-they are run: two threads, a cluster, of which each worker counts for itself, and a run that was
-interrupted may lose other rows of such a law. Rows of other laws do not depend on it.
+they are run: with parallel threads, after an interruption (the losses before it are not counted),
+and on a cluster, where each chunk of units counts for itself, other rows of such a law may be lost.
+Rows of other laws do not depend on it.
 """
 
 import contextlib
 import sys
+import threading
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from typing import TypeVar
 
 import pyarrow as pa
 
@@ -50,6 +55,8 @@ TICK_S = {
 """Seconds of processor time, by engine: ten times a tick of ours. A perturbed body is simulated as
 ideal-held is."""
 
+Answer = TypeVar("Answer")
+
 LOST = (CRASHED, HUNG)
 """The outcomes of episodes that did not come back; they are words of `tasks.verdict.OUTCOMES`."""
 
@@ -65,7 +72,7 @@ class Sandbox(contextlib.AbstractContextManager):
         is_checked: Whether every law was found to be within the dialect.
         stopping: Whether no more is to be begun.
         notes: Messages about the laws.
-        again: Keys of units whose law was killed twice while it prepared.
+        again: Keys of units whose process was killed twice.
         reasons: Law -> why it was lost, the first time.
     """
 
@@ -81,7 +88,9 @@ class Sandbox(contextlib.AbstractContextManager):
         self._tried: dict[Unit, pa.Table] = {}
         # Why nothing more is tried of a law, everywhere or at a place.
         self._given_up: dict[str | tuple[str, ...], NoAnswer] = {}
-        self._losses: Counter[str] = Counter()
+        # Of a law, and whether the process was killed.
+        self._losses: Counter[tuple[str, bool]] = Counter()
+        self._counting = threading.Lock()
         self._pool = Pool()
         self._is_compiled = False
 
@@ -143,14 +152,14 @@ class Sandbox(contextlib.AbstractContextManager):
         error = self._given_up_for(unit)
         if error is None:
             try:
+                limit_s = self._limit_s(unit, stretch)
                 with self._pool.turns:
                     self._prepare(unit)
-                    with self._process(unit) as process:
-                        return process.make_rows(unit, stretch, self._limit_s(unit, stretch))
+                    return self._ask(unit, lambda law: law.make_rows(unit, stretch, limit_s))
             except NoAnswer as no_answer:
                 error = no_answer
                 self._note_loss(unit, stretch, error)
-        if error.fate == KILLED and self._given_up_for(unit) is error:
+        if error.fate == KILLED:
             self.again.add(unit.key)
         return lost_table(self.plan.request, stretch, outcome_of(error))
 
@@ -164,11 +173,11 @@ class Sandbox(contextlib.AbstractContextManager):
         return patience_s + TICK_S[unit.engine] * ticks
 
     def _note_loss(self, unit: Unit, stretch: Unit, error: NoAnswer) -> None:
-        """Say what is lost; of a law's third loss, that nothing more is tried."""
+        """Say what is lost; after MOST_LOST losses of a law, give it up and say so once."""
         law = unit.law
         self.reasons.setdefault(law, str(error))
         if self._given_up_for(unit) is not None:
-            # The law could not be compiled, which was said.
+            # The law could not be compiled, or was lost too often, which was said.
             return
         outcome = outcome_of(error)
         rows = lost_table(self.plan.request, stretch, outcome).num_rows
@@ -176,14 +185,16 @@ class Sandbox(contextlib.AbstractContextManager):
         where = unit.label
         if experiment_of(unit).is_divisible:
             where += f", {unit.selector} from {stretch.first}"
-        self._note(f"{where}: {error}; {what}")
-        self._losses[law] += 1
-        if self._losses[law] == MOST_LOST:
-            self._given_up[law] = NoAnswer(outcome, f"it was lost {MOST_LOST} times ({error})")
-            self._note(
-                f"{law}: it was lost {MOST_LOST} times; its other episodes count as {outcome} "
-                "and are not tried"
-            )
+        is_killed = error.fate == KILLED
+        later = "; the same command tries them again" if is_killed else ""
+        self._note(f"{where}: {error}; {what}{later}")
+        times = f"it was lost {MOST_LOST} times"
+        with self._counting:
+            self._losses[law, is_killed] += 1
+            if law in self._given_up or self._losses[law, is_killed] < MOST_LOST:
+                return
+            self._given_up[law] = NoAnswer(error.fate, f"{times} ({error})")
+        self._note(f"{law}: {times}; its other episodes count as {outcome} and are not tried{later}")
 
     def _given_up_for(self, unit: Unit) -> NoAnswer | None:
         """Return why nothing more is tried of a unit's law."""
@@ -197,14 +208,7 @@ class Sandbox(contextlib.AbstractContextManager):
                 while it is compiled, and is given up at this place.
         """
         try:
-            try:
-                self._prepare_once(unit)
-            except NoAnswer as error:
-                if error.fate != KILLED:
-                    raise
-                self._note(f"{unit.law}: {error}; it is tried once more, alone")
-                with self._pool.alone():
-                    self._prepare_once(unit)
+            self._ask(unit, lambda law: law.prepare(unit))
         except NoAnswer as error:
             key: str | tuple[str, ...] = unit.law
             where = there = ""
@@ -216,9 +220,17 @@ class Sandbox(contextlib.AbstractContextManager):
             self._note(f"{unit.law}: {known}; all its episodes{there} are {outcome_of(known)}")
             raise known from error
 
-    def _prepare_once(self, unit: Unit) -> None:
-        with self._process(unit) as process:
-            process.prepare(unit)
+    def _ask(self, unit: Unit, question: Callable[[LawProcess], Answer]) -> Answer:
+        """Return what a process of the unit's law answers; asked again, alone, if it was killed."""
+        try:
+            with self._process(unit) as process:
+                return question(process)
+        except NoAnswer as error:
+            if error.fate != KILLED:
+                raise
+            show(f"{unit.law}: {error}; it is tried once more, alone")
+        with self._pool.alone(), self._process(unit) as process:
+            return question(process)
 
     @contextlib.contextmanager
     def _process(self, unit: Unit) -> Iterator[LawProcess]:
@@ -242,10 +254,14 @@ class Sandbox(contextlib.AbstractContextManager):
         return LawProcess(law, self.plan.request, described(self.plan, units))
 
     def _note(self, text: str) -> None:
-        # It may hold what a law raised.
-        printable = "".join(letter if letter.isprintable() else " " for letter in text)
-        self.notes.append(printable)
-        print(printable, file=sys.stderr)
+        self.notes.append(show(text))
+
+
+def show(text: str) -> str:
+    """Print a message, which may hold what a law raised, and return what of it can be printed."""
+    printable = "".join(letter if letter.isprintable() else " " for letter in text)
+    print(printable, file=sys.stderr)
+    return printable
 
 
 def cut(unit: Unit) -> list[Unit]:
@@ -253,9 +269,7 @@ def cut(unit: Unit) -> list[Unit]:
     if not experiment_of(unit).is_divisible or unit.count <= STRETCH:
         return [unit]
     end = unit.first + unit.count
-    return [
-        unit.part(first, min(STRETCH, end - first)) for first in range(unit.first, end, STRETCH)
-    ]
+    return [unit.part(first, min(STRETCH, end - first)) for first in range(unit.first, end, STRETCH)]
 
 
 def place_of(unit: Unit) -> tuple[str, str, str]:
