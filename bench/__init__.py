@@ -18,14 +18,15 @@ engines/      one episode, four ways: reference, native, ideal-rk4, ideal-held; 
               counting/, operations of the code that runs
 experiments/  one file an experiment with its columns, units and rows; what plans them: request, suites, plan
               tables/: run (reads a run), schema, store, statistics; trust and kept_laws (laws of a results folder)
-export/       laws as code for another's controller: C, C++, Rust, Python, JavaScript, with test vectors; wheel (the
-              audit and all laws in Python)
-running/      run, run_folder (until it is finished), precompile, wire_format, sandbox/ (a user's laws), schedulers/
-              (threads, and a Dask cluster)
+export/       laws as code for another's controller: C, C++, Rust, Python, JavaScript;
+              test vectors; wheel (the audit and all laws in Python)
+running/      run, run_folder (until it is finished), precompile, wire_format,
+              sandbox/ (a user's laws), schedulers/ (threads, and a Dask cluster)
 findings/     claims/ (the paper's sentences), selection/ (which law), why (what a law does), theory/ (closed forms);
               kept: found once, and again when anything differs
 regression/   rows/ (two runs), revisions/ (two revisions), history (every build), timer (time per tick)
-studies/      what is run rarely: libraries/ (other robot libraries), restated/, real_time/, situations, verdicts, gates
+studies/      what is run rarely: libraries/ (other robot libraries), restated/, real_time/,
+              situations, verdicts, gates and others
 cli/          the command line, one file a command
 
 The judge (plants, arms, starts, rules, truth) is the package `tasks`, which imports nothing from here; the book is

@@ -26,7 +26,6 @@ import contextlib
 import json
 import math
 import os
-import resource
 import runpy
 import secrets
 import select
@@ -353,6 +352,8 @@ def _list_carriers(entry: bytes) -> list[int]:
 
 def confine(mapped: int = MAPPED) -> None:
     """Limit the memory and the files of this process, and of all that it forks."""
+    import resource  # the audit's pytest plugin imports us on systems without it, too
+
     resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_FSIZE, (FILE, FILE))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
