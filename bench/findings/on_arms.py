@@ -47,7 +47,8 @@ def best(rows: pd.DataFrame, measure: str, by: str) -> list[str]:
     rows = rows.assign(passes=passed(rows)[measure])
     of = {str(name): own.set_index(START)["passes"] for name, own in rows.groupby(by, observed=True)}
     ranked = sorted(of, key=lambda name: (-of[name].mean(), name))
-    first = ranked[0]
-    return [
-        name for name in ranked if name == first or not differs_significantly(of[first], of[name])
-    ]
+    unbeaten = ranked[:1]
+    for name in ranked[1:]:
+        if not differs_significantly(of[ranked[0]], of[name]):
+            unbeaten.append(name)
+    return unbeaten
