@@ -147,7 +147,7 @@ class Line:
         Args:
             wall_s: How long to wait.
             most: Bytes that it may have.
-            has_ended: Is asked every LOOK_S whether the other process has ended: what that has
+            has_ended: Is called every LOOK_S and tells whether the other process has ended: what it has
                 forked may hold the line still.
 
         Errors:

@@ -13,7 +13,7 @@ from bench.law.contenders.law_file import keep_text
 
 @contextlib.contextmanager
 def bad_law(files: str, why: str, duty: str) -> Iterator[None]:
-    """Raise BadLaw in place of what goes wrong when a process of a law is asked.
+    """Raise BadLaw in place of an error of a request to a law's process.
 
     Args:
         files: The laws'.

@@ -1,4 +1,4 @@
-"""Processes of users' laws (server.py): what they are asked, and which are kept for the next request."""
+"""Processes of users' laws (server.py): their requests, and which of them are kept for the next one."""
 
 import contextlib
 import threading
