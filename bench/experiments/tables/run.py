@@ -111,6 +111,7 @@ class Run:
         self.others = others
         self.chosen: list[tuple[str, str]] = []
         self._rows: dict[tuple[str, str], pd.DataFrame] = {}
+        self._probes: dict[tuple[str, str], pd.DataFrame] = {}
         self._first: pd.DataFrame | None = None
 
     @property
@@ -175,12 +176,16 @@ class Run:
         return self.table(name, **words, **FREE_BODY, representation=PAPERS_COORDINATES)
 
     def probe(self, name: str, **words: Words) -> pd.DataFrame:
-        """Return what a probe measured, a row a case and a column a measure.
+        """Return what a probe measured, a row a case and a column a measure; the frame is shared.
 
         NoEvidence: the run has no such rows.
         """
         rows = self.table("probes", probe=name, **words)
-        return widen(require_rows(rows, f"row of the probe '{name}'"))
+        require_rows(rows, f"row of the probe '{name}'")
+        case = (name, query_of(words))
+        if case not in self._probes:
+            self._probes[case] = widen(rows)
+        return self._probes[case]
 
     def _any_episode(self) -> pd.DataFrame:
         words = {**FREE_BODY, "engine": MAIN_ENGINE}
@@ -285,7 +290,7 @@ def require_rows(rows: Rows, what: str) -> Rows:
 
 def converged(rows: pd.DataFrame) -> pd.DataFrame:
     """Return the episodes without those whose outcome changes if the time step is shorter."""
-    return rows_where(rows, (rows["converged"] != "no").to_numpy(bool))
+    return rows_where(rows, ~has_words(rows, {"converged": "no"}))
 
 
 @functools.lru_cache(maxsize=16)
@@ -328,8 +333,7 @@ def with_contender(frame: pd.DataFrame) -> pd.DataFrame:
     first, number = number_rows(frame, columns)
     names = [""] * len(first)
     for column in columns:
-        words = frame[column].iloc[first].astype(object)
-        for place, word in enumerate(words):
+        for place, word in enumerate(frame[column].array[first].tolist()):
             if word:
                 names[place] += MARKS[column] + word
     categories = sorted(set(names))
@@ -360,8 +364,8 @@ def query_of(words: Mapping[str, Words]) -> str:
 def widen(rows: pd.DataFrame) -> pd.DataFrame:
     """Return rows of probes.parquet with a column a measure, a row a case, in the order of rows."""
     first, number = number_rows(rows, CASE)
-    measure, names = pd.factorize(rows["measure"])
+    measure, names = pd.factorize(rows["measure"].array)
     columns = np.full((len(names), len(first)), np.nan)
     columns[measure, number] = rows["value"].to_numpy(float)
-    cases = rows[list(CASE)].iloc[first].reset_index(drop=True)
-    return cases.assign(**dict(zip(map(str, names), columns, strict=True)))
+    cases = {name: rows[name].array[first] for name in CASE}
+    return pd.DataFrame({**cases, **dict(zip(map(str, names), columns, strict=True))})

@@ -9,6 +9,7 @@ import numpy as np
 
 from bench.base.errors import NoEvidence
 from bench.base.on_first_use import pd
+from bench.experiments.tables.rows import has_words
 from bench.experiments.tables.run import (
     FREE_BODY,
     MAIN_ENGINE,
@@ -173,8 +174,8 @@ def lost_text(one: Spun) -> str:
 
 
 def settled(frame: pd.DataFrame) -> pd.Series:
-    """Whether each episode settled."""
-    return frame["outcome"] == SETTLED
+    """Return whether each episode settled."""
+    return pd.Series(has_words(frame, {"outcome": SETTLED}), frame.index)
 
 
 def settling_times(frame: pd.DataFrame) -> np.ndarray:
