@@ -26,11 +26,13 @@ def print_paragraphs(*every: Paragraph) -> None:
     screen = console()
     by = textwrap.TextWrapper(min(screen.width, WIDTH), break_long_words=False, break_on_hyphens=False)
     by.subsequent_indent = " " * HEAD
+    lines = []
     for head, sentences in every:
         for place, sentence in enumerate(sentences):
             by.initial_indent = f"{'' if place else head:{HEAD}}"
-            for line in by.wrap(spelled(sentence, screen)):
-                screen.print(line, soft_wrap=True)
+            lines += by.wrap(spelled(sentence, screen))
+    if lines:
+        screen.print("\n".join(lines), soft_wrap=True)
 
 
 def listed(words: Sequence[str]) -> str:

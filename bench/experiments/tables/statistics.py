@@ -169,15 +169,26 @@ def resampled_quantile(values: np.ndarray, level: float, seed: int = SEED) -> np
     reach = math.ceil(REACH * math.sqrt(total * share * (1.0 - share))) + 8
     while True:
         first, last = max(0, place - reach), min(total, place + reach)
-        is_below = np.zeros(total, counts.dtype)
-        is_below[order[:first]] = 1
-        below = counts @ is_below
+        below = _count_among(counts, order[:first])
         near = order[first:last]
         up_to = below[:, None] + counts[:, near].cumsum(axis=1, dtype=counts.dtype)
         exceeds = up_to > place
         if (below <= place).all() and exceeds[:, -1].all():
             return values[near][exceeds.argmax(axis=1)]
         reach *= 2
+
+
+def _count_among(counts: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Return how many values of each resample are among those at some places, from the fewer of these and the others.
+
+    counts: how often each value is in each resample, (RESAMPLES, n). A resample has n values.
+    """
+    total = counts.shape[1]
+    if len(places) <= total // 2:
+        return counts[:, places].sum(axis=1, dtype=counts.dtype)
+    is_other = np.ones(total, dtype=bool)
+    is_other[places] = False
+    return total - counts[:, is_other].sum(axis=1, dtype=counts.dtype)
 
 
 def resampled_slope(x: np.ndarray, y: np.ndarray, seed: int = SEED) -> np.ndarray:

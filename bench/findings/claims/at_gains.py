@@ -11,25 +11,16 @@ from pathlib import Path
 from typing import Any
 
 from bench.base.errors import NoEvidence
-from bench.experiments.columns import CONTENDER_KEY
-from bench.experiments.tables.run import MAIN_ENGINE, Run, read_table
+from bench.experiments.tables.run import MAIN_ENGINE, Run
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.amounts import join_words
-from bench.findings.claims.tables import CHECK_ENGINES, evidence
+from bench.findings.claims.tables import CHECK_ENGINES, COLUMNS, evidence
 from bench.findings.claims.verdict import Evidence, Word, verb_phrase
 from bench.law.inputs import Gains
 
 REFERENCE = RESULTS / "reference"
 GAINS = RESULTS / "gains"
 """Runs of the same starts at other gains, a folder each."""
-
-EPISODES = (
-    *CONTENDER_KEY,
-    *("task", "engine", "start_set", "start_id", "kp", "kv", "dt_s"),
-    *("alpha0", "beta0", "gamma0", "angle0_rad", "goal_quat_w", "goal_quat_x", "goal_quat_y", "goal_quat_z"),
-    *("outcome", "settling_time_s", "path_ratio", "converged"),
-)
-"""Columns of the other runs' episodes that are read. A claim that asks these runs for another column adds it here."""
 
 RULE = (
     "Whichever run is judged, we also judge results/reference and every run of results/gains by this "
@@ -60,7 +51,7 @@ def other_gains(run: Run) -> list[Run]:
 @functools.cache
 def _run_of(folder: Path) -> Run:
     """Return the run in a folder, one for all claims, so that what they share is computed once."""
-    return Run(folder, {"episodes": read_table(folder, "episodes", EPISODES)})
+    return Run(folder, columns=COLUMNS)
 
 
 def at_every_gain(decide: Callable) -> Callable:

@@ -137,13 +137,14 @@ def predicted(rows: pd.DataFrame, representation: str = "") -> np.ndarray:
 
     along, law = contenders("representations").get(representation), "hybrid" if representation else BASE
     told = {one.name: one for one in SPECIFICATIONS}
+    arms = {name: tasks.arm(name) for name in rows["arm"].unique()}
     found = np.empty((len(rows), 3, 3))
     for k, row in enumerate(rows.to_dict("records")):
         gains = Gains(*(row[name] for name in Gains._fields))
         touch = ContactParameters(*(row[name] for name in ContactParameters._fields))
         goal = from_quaternion(zyx(row["alpha"], row["beta"], row["gamma"]))
         one = hybrid(law, row["form"], along)
-        found[k] = compliance(one, told[row["complies"]], goal, row["horizon_s"], gains, touch, tasks.arm(row["arm"]))
+        found[k] = compliance(one, told[row["complies"]], goal, row["horizon_s"], gains, touch, arms[row["arm"]])
     return found
 
 
