@@ -21,6 +21,10 @@ from bench.experiments.experiment import Unit, experiment_of, known_experiments,
 from bench.experiments.request import Request
 from bench.experiments.tables.schema import name_of, table_of
 
+# Arrow's usual pool gives memory back at once, and each table then pays again for new pages: a tenth of what
+# `bench claims` takes.
+pa.set_memory_pool(pa.system_memory_pool())
+
 
 def encoding(schema: pa.Schema) -> dict:
     """Say how columns are written: numbers with a fraction, which seldom repeat, by all first bytes, then all second.

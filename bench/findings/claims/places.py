@@ -53,13 +53,13 @@ def turns_of(angles: np.ndarray) -> np.ndarray:
 
 def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the distance of each start from the poles, the jumps of alpha and gamma, and 180° [rad]."""
-    return pd.DataFrame(
-        {
-            "pole": math.pi / 2 - frame["beta0"].abs(),
-            "wrap": np.minimum(math.pi - frame["alpha0"].abs(), math.pi - frame["gamma0"].abs()),
-            "half_turn": math.pi - frame["angle0_rad"],
-        }
-    )
+    alpha, beta, gamma = (np.abs(frame[name].to_numpy(float)) for name in ("alpha0", "beta0", "gamma0"))
+    distances = {
+        "pole": math.pi / 2 - beta,
+        "wrap": np.minimum(math.pi - alpha, math.pi - gamma),
+        "half_turn": math.pi - frame["angle0_rad"].to_numpy(float),
+    }
+    return pd.DataFrame(distances, frame.index)
 
 
 def at_boundary(frame: pd.DataFrame, place: str, what: str) -> pd.DataFrame:

@@ -140,7 +140,7 @@ def times_of(rows: pd.DataFrame) -> Times:
     """Ratios from rows of results/timings with `machine` and `contender`, by machine and arm."""
     found: dict[tuple, dict[str, Estimate]] = {}
     columns = ["machine", "arm", "contender", "ratio", "ratio_low", "ratio_high"]
-    for machine, arm, name, *ratio in rows[columns].astype({"arm": str, "contender": str}).itertuples(index=False):
+    for machine, arm, name, *ratio in zip(*(rows[column].tolist() for column in columns), strict=True):
         found.setdefault((machine, arm), {})[name] = Estimate(*ratio)
     return list(found.values())
 
