@@ -22,6 +22,8 @@ def main() -> int:
 
         # Looking for cycles of unused objects after every 700 new ones takes a tenth of a command that reads tables.
         gc.set_threshold(OBJECTS)
+        # Threads of OpenBLAS wait at full speed when NumPy is imported; no command has matrices of a size for them.
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         os.environ["PYTHONSAFEPATH"] = "1"  # nor does a process of Dask or multiprocessing import from this folder
         from bench.base.signs import spell_where_needed
 

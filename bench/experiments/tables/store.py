@@ -183,7 +183,7 @@ def read_name(path: Path) -> str:
 
 def frame(path: Path, table: str | Table, columns: Iterable[str] | None = None) -> pd.DataFrame:
     """Return a file of a table as a data frame, or some of its columns, read and checked by `read_arrow`."""
-    rows = read_arrow(path, table, columns).to_pandas(ignore_metadata=True)
+    rows = read_arrow(path, table, columns).to_pandas(ignore_metadata=True, use_threads=False)
     # pandas finds a column among Python's words in a third of the time that it takes among Arrow's.
     rows.columns = pd.Index(rows.columns, dtype=object)
     return rows
