@@ -6,7 +6,6 @@ imports.
 
 import sys
 
-
 OBJECTS = 100_000
 """New objects after which Python looks for cycles of unused ones: some 10 MB."""
 

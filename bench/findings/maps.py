@@ -11,8 +11,9 @@ import pandas as pd
 from bench.base.errors import NoTable
 from bench.experiments.tables.rows import number_rows
 from bench.experiments.tables.run import with_contender
-from bench.experiments.tables.statistics import Estimate, exact_interval
+from bench.experiments.tables.statistics import Estimate
 from bench.experiments.tables.store import read, read_arrow
+from bench.findings.exact_interval import exact_interval
 from bench.law.inputs import Gains
 
 SPEEDS = ["least_speed", "most_speed"]

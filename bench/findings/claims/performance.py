@@ -22,7 +22,6 @@ from bench.findings.amounts import capitalize, count_of, join_words, part_of
 from bench.findings.claims import adequacy, tables
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy, is_without_memory, whose
 from bench.findings.claims.at_gains import at_every_gain, on_every_engine
-from bench.findings.claims.once import once_a_run
 from bench.findings.claims.standing import ORDERED, Ledger
 from bench.findings.claims.tables import episodes_of, evidence, percent, settled, share
 from bench.findings.claims.verdict import Evidence, Word, claim, word_of
@@ -278,7 +277,6 @@ def _answer(law: Adequacy, tested: adequacy.Tested, known: Ledger) -> tuple[str,
     )
 
 
-@once_a_run
 def _of_the_three(run: Run) -> list[pd.DataFrame]:
     """Return the uniform starts that all laws ran; unconverged episodes count as unsettled."""
     found = [episodes_of(run, name, MAIN_ENGINE, "uniform") for name in NAMES]
