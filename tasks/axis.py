@@ -1,6 +1,7 @@
 """What a file of tasks/conditions declares: a perturbation of the free body, and the fields of a condition it needs.
 
 Along an axis a number, the level, grows or shrinks. A field is declared by one axis and may be set by others.
+CONTRIBUTING.md shows the whole file of a perturbation.
 """
 
 from __future__ import annotations
