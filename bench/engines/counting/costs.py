@@ -22,6 +22,9 @@ from bench.law.inputs import NO_MEMORY
 FLOPS = ("add", "mul", "div", "sqrt")
 BRANCHES = ("typical", "worst")
 
+PACK = struct.Struct("<d").pack
+"""A double as eight bytes."""
+
 
 class Cost(NamedTuple):
     """Operations per tick of one contender, or controller in contact; the rules are `bench.engines.counting.RULES`.
@@ -155,9 +158,9 @@ def counted(numbers: Any, tally: Tally) -> Any:
     if isinstance(numbers, int):
         return numbers
     if isinstance(numbers, np.ndarray):
-        return np.frompyfunc(lambda number: Counted(number, tally), 1, 1)(numbers)
+        return np.frompyfunc(lambda number: Counted(float(number), tally), 1, 1)(numbers)
     if not isinstance(numbers, tuple):
-        return Counted(numbers, tally)
+        return Counted(float(numbers), tally)
     inside = [counted(number, tally) for number in numbers]
     return type(numbers)(*inside) if hasattr(numbers, "_fields") else tuple(inside)
 
@@ -173,9 +176,9 @@ def values(answer: Any) -> Any:
 
 def bits(answer: Any) -> bytes:
     """Return the numbers of an answer, bit by bit: NaN equals NaN, and 0.0 is not -0.0."""
-    answer = values(answer)
     if isinstance(answer, tuple):
         return b"".join(map(bits, answer))
-    if not isinstance(answer, float):
-        return repr(answer).encode()
-    return struct.pack("<d", answer if answer == answer else math.nan)
+    number = values(answer)
+    if not isinstance(number, float):
+        return repr(number).encode()
+    return PACK(number if number == number else math.nan)

@@ -136,8 +136,8 @@ class Counted:
     __slots__ = ("tally", "value")
     __array_ufunc__ = None  # numpy's own operators and functions then leave the operation to this class
 
-    def __init__(self, value: Any, tally: Tally) -> None:
-        self.value = float(value)
+    def __init__(self, value: float, tally: Tally) -> None:
+        self.value = value
         self.tally = tally
 
     def __repr__(self) -> str:
