@@ -1,6 +1,7 @@
 """What a file of tasks/conditions declares: a perturbation of the free body, and the fields of a condition it needs.
 
 Along an axis a number, the level, grows or shrinks. A field is declared by one axis and may be set by others.
+CONTRIBUTING.md shows the whole file of a perturbation.
 """
 
 from __future__ import annotations
@@ -115,9 +116,16 @@ def spread(count: int, seed: int, level: float) -> list[Start]:
 class Axis(NamedTuple):
     """A perturbation: the constant AXIS of every tasks/conditions/<name>.py.
 
-    nominal: the level of no perturbation, None if there is none. fields: those that this file declares.
-    sets(level) -> {field: its value}; without it the level is the first field's value. starts(count, seed, level) -> as
-    many starts.
+    Attributes:
+        name: The file's name, with dashes.
+        title: What it is, in a few words.
+        unit: Unit of the level.
+        levels: The levels at which laws are run, in ascending order.
+        nominal: The level of no perturbation, one of the levels; None if there is none.
+        fields: The fields that this file declares.
+        sets: sets(level) -> {field: its value}, of any file's fields; without it the level is the
+            value of the first field.
+        starts: starts(count, seed, level) -> as many starts; by default evenly spread, at rest.
     """
 
     name: str

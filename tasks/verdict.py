@@ -1,6 +1,9 @@
 """The judge at work, tick by tick, for slow and compiled loops alike: has it settled, has it failed, how did it end.
 
-The angle is seen as haversine = sin^2(theta/2), which is monotone in theta and exact near 0.
+The angle is seen as haversine = sin^2(theta/2), which is monotone in theta and exact near 0. The
+column `outcome` is what `verdict` returns. The column `settling_time_s` is `Watch.settled_since`,
+the first tick since which the angle has stayed in the band, times the control period. The band is
+a share of the initial angle (`tasks.rules.RULES`).
 """
 
 from typing import NamedTuple

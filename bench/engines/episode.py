@@ -1,4 +1,9 @@
-"""What every engine is given and gives back: settings, one row of numbers in and one row out per episode."""
+"""What every engine is given and gives back: settings, one row of numbers in and one row out per episode.
+
+A row out begins with OUTCOME to STEP, which `finish` writes from the judge (tasks/verdict.py), and
+goes on with a number for each metric. `bench.experiments.episode_rows` makes the columns of a table
+of it: `settling_time_s` is SETTLING_TICK times the control period.
+"""
 
 import math
 from collections.abc import Sequence

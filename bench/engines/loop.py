@@ -3,6 +3,13 @@
 A tick: command, see, advance, sense. What the judge sees is the state at the beginning of each tick. The parts are
 kernels, which the loop holds as a closure: compiled they become one function, plain they are the reference. `body` is
 the world they work in; `state`, `sensed`, `action` and `memory` go from tick to tick.
+
+    command   calls the law, as `accelerate` does for a free body
+    see       updates the metrics and the curve: the columns behind `engines.episode.FIRST_METRIC`
+    advance   moves the plant over a control period
+    sense     measures the plant; `watched` of the judge (tasks/verdict.py) then sees the angle
+
+At the end `finish` of `engines.episode` asks the judge for the outcome and writes it into the row.
 """
 
 import math

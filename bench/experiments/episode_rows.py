@@ -1,4 +1,13 @@
-"""Rows of episodes without contact: their columns, and how they are made of what an engine gives back."""
+"""Rows of episodes without contact: their columns, and how they are made of what an engine gives back.
+
+    outcome, settling_time_s,         `judged_columns`, from the judge (tasks/verdict.py)
+    failure_time_s, final_angle_rad
+    effort, overshoot_rad, and more   `measured_columns`: one a metric (bench/engines/metrics/motion)
+    cause, cond_jacobian_max          `frame`, from tasks/cause.py and tasks/kinematics.py
+    all others                        `frame`, from the request, the unit and the starts
+
+episodes.toml declares the columns; JUDGED, and other names in capitals, are in shared.toml.
+"""
 
 from __future__ import annotations
 

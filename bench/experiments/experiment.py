@@ -2,6 +2,7 @@
 
 An experiment is one file of this folder with a constant EXPERIMENT, and the TOML file of its table (`columns`): `units`
 plans the work, `rows` does a unit of it in whatever process. The rows of all units, in their order, are the table.
+CONTRIBUTING.md shows both files of an experiment.
 
 Limitations: an experiment that imports a compiled engine, scipy or pandas outside its functions makes every plan, and
 `list`, wait for it.

@@ -41,7 +41,13 @@ TILT_DEG = 60.0
 
 
 class Settling(NamedTuple):
-    """How the uniform starts of a law end. times: 50 % and 99 % settle within these [s], infinite if fewer do."""
+    """How the uniform starts of a law end.
+
+    Attributes:
+        share: Share of the starts that settle (outcome "settled").
+        median: Time within which 50 % of the starts settle [s]; infinite if fewer do.
+        nearly_all: Time within which 99 % of the starts settle [s]; infinite if fewer do.
+    """
 
     share: Share
     median: Estimate
@@ -55,7 +61,11 @@ def starts_at_rest(run: Run, engine: str = MAIN_ENGINE) -> pd.DataFrame:
 
 
 def measure_settling(rows: pd.DataFrame) -> Settling:
-    """Return how the uniform starts among a law's rows end; NoEvidence: there is none."""
+    """Return how the uniform starts among a law's rows end; NoEvidence: there is none.
+
+    The times are quantiles of the column settling_time_s, in which an episode that does not settle
+    counts as infinite.
+    """
     uniform = require_rows(rows[rows["start_set"] == "uniform"], "uniform start of a law")
     times = settling_times(uniform)
     return Settling(

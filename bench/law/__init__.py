@@ -5,11 +5,28 @@ here alone:
 
     from bench.law import Law, cross, dot, kernel, sqrt
 
+What a law may call, with theta k the turn from R to R_d; all vectors in the base frame:
+
+    sqrt(x), sin(x), cos(x), acos(x), atan2(y, x), copysign(magnitude, sign)
+    dot(p, q), cross(p, q), minus(p, q)          p . q, p x q, p - q
+    rotate(R, v), rotate_back(R, v)              R v, R^T v
+    relative(R_d, R), turn_matrix(R, R_d)        R_d^T R, R_d R^T
+    trace(R, R_d), half_cosine_squared(R, R_d)   1 + 2 cos(theta), cos^2(theta/2)
+    double_sine(R, R_d)                          2 sin(theta) k = n x n_d + o x o_d + a x a_d
+    turn_quaternion(R, R_d) -> (w, v, t)         (w, v) = 2 sqrt(t) (cos(theta/2), sin(theta/2) k)
+                                                 with w >= 0 and t >= 1
+    turn_on_kept_side(R, R_d, memory, DELTA)     (w, v, sqrt(t)) on the side that the law remembers
+    rotation_vector((w, x, y, z))                theta k of a unit quaternion with w >= 0 [rad]
+    from_quaternion((w, x, y, z))                R of a unit quaternion
+    spring_damper(stiffness, e, kv, omega)       stiffness e - kv omega
+
+Files of this folder:
+
 scalar           the dialect: @kernel, and the functions of a number that it has
 so3              rotations as three columns, and vectors
 side             the side of a 180° rotation that a law keeps in memory
 linalg/          products, eliminations and rotations of small matrices
-kinds            Law, Coordinates, Jacobian, Inverse, Impedance, Spring: a file of contenders/ holds one of them
+kinds            Law, Coordinates, Jacobian, Inverse, Impedance, Spring and others
 attribution      published, adapted or ours: whose a law is
 inputs           Gains, Tuning, Goal; chain: an arm as kernels see it
 display          what the book shows of a law: short name, look, family, equation

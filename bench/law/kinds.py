@@ -1,4 +1,9 @@
-"""The six kinds of contender: Law, Coordinates, Jacobian, Inverse, Impedance, Spring. A file of contenders/ holds one.
+"""The records of contenders: a file of bench/law/contenders holds one of them.
+
+    Law            regulators/        Coordinates    representations/
+    Jacobian       jacobians/         Inverse        inverses/
+    Impedance      impedances/        Spring         springs/
+    Stateful, Baseline: a law with a state (compensators/), or one that controls an arm (baselines/)
 
 Shapes: a vector is a tuple of 3 numbers, R a `Rotation`, E a tuple of 3 coordinates (4 of a quaternion). A buffer is an
 array A[i, j] or b[i] of numbers: float64, or counting scalars. Base frame, radians, seconds, SI units.

@@ -1,4 +1,7 @@
-"""What a metric is: a number folded over the ticks of an episode, compiled with the loop and never stored per tick."""
+"""What a metric is: a number folded over the ticks of an episode, compiled with the loop and never stored per tick.
+
+CONTRIBUTING.md shows the whole file of a metric.
+"""
 
 import math
 from collections.abc import Callable

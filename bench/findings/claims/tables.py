@@ -1,4 +1,16 @@
-"""What judging functions make of rows: those with enough starts, shares and times with intervals."""
+"""What judging functions make of rows: those with enough starts, shares and times with intervals.
+
+    episodes_of(run, law, engine, *start_sets)  rows of a law on the free body
+    settled(rows)                               whether each episode settled
+    settling_times(rows)                        times [s], infinite where an episode did not settle
+    share(facts)                                share of yes-or-no rows that are yes, with its interval
+    lost(rows)                                  share of starts that do not settle, with its interval
+    same_starts(frames)                         episodes of several laws from the starts all have
+    percent, percent_interval, interval         numbers as sentences write them
+    evidence(sentence, rows, measured=...)      what a judging function returns beside its word
+
+Quantiles and their intervals are in `bench.experiments.tables.statistics`.
+"""
 
 from __future__ import annotations
 
