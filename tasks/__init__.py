@@ -150,7 +150,10 @@ def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "")
 @functools.lru_cache(maxsize=128)
 def _starts_on(arm: Arm, chosen: ArmStartSet, count: int, seed: int) -> tuple[Start, ...]:
     """Find the starts once: it takes searches of seconds."""
-    return tuple(chosen.build(arm, count, seed))
+    from tasks import found_starts  # it is run by its name, too
+
+    known = found_starts.read(arm, chosen, count, seed)
+    return tuple(chosen.build(arm, count, seed)) if known is None else known
 
 
 def start_set_length(name: str, count: int | None = None, seed: int = 0, arm: str = "") -> int:

@@ -91,7 +91,7 @@ def _digest(names: tuple[str, ...], more: str = "") -> str:
     for name in names:
         found = ROOT / name
         for path in sorted(found.rglob("*")) if found.is_dir() else [found]:
-            if path.suffix in (".py", ".toml", ".xml"):
+            if path.suffix in (".py", ".toml", ".xml", ".json"):
                 digest.update(path.relative_to(ROOT).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     digest.update(more.encode())
     return digest.hexdigest()[:16]

@@ -32,7 +32,7 @@ ENDING_S = 0.5
 """On the wall, from the end of a fork's line to its exit code."""
 
 SIGKILL_S = 1
-"""Of processor time, from SIGXCPU at a limit to the SIGKILL that nothing ignores."""
+"""Processor time from SIGXCPU at a limit to the SIGKILL that nothing ignores."""
 
 
 def serve(make: Callable[[dict, Line], bytes]) -> None:

@@ -24,7 +24,7 @@ from bench.base.provenance import ROOT, kept_in
 PACKAGES = ("bench", "tasks")
 """What is ours, and so may be a dependency."""
 
-SUFFIXES = (".py", ".toml", ".xml")
+SUFFIXES = (".py", ".toml", ".xml", ".json")
 
 BODIES = ("body", "orelse", "finalbody", "handlers", "cases")
 """Fields of a syntax node that hold statements, or what holds them."""
