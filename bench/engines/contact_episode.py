@@ -30,12 +30,6 @@ DONE = "done"
 OUTCOMES = {GOING: DONE, DIVERGED: "diverged", SINGULAR: "singular", SATURATED: "saturated", BROKEN: "broken"}
 """How an episode ended: at rest or at its horizon, or by the judge's rules before it."""
 
-LEFT_OUT = {
-    "mjWARN_CONTACTFULL": int(mujoco.mjtWarning.mjWARN_CONTACTFULL),
-    "mjWARN_CNSTRFULL": int(mujoco.mjtWarning.mjWARN_CNSTRFULL),
-}
-"""Warnings of MuJoCo, by name, that it left out contacts or constraints: their places among all warnings."""
-
 TIME, R, OMEGA, P, FORCE, MOMENT, GAP, TURNED, LOAD = 0, 1, 10, 13, 16, 19, 22, 23, 24
 WIDTH = 25
 """Columns of a record: time [s], columns of R, omega [rad/s], p [m], force [N] and moment [N m] on the hand, gap to the
@@ -179,8 +173,8 @@ def setpoint(R_d, p_0, numbers, time):
 
 def made(record: np.ndarray, failure: int, ticks: int, message: str, data: Any) -> EndedEpisode:
     """Return the episode of a filled record; broken if MuJoCo left out contacts or constraints for want of memory."""
-    numbers = data.warning.number
-    left_out = [name for name, place in LEFT_OUT.items() if numbers[place]]
+    kinds = (mujoco.mjtWarning.mjWARN_CONTACTFULL, mujoco.mjtWarning.mjWARN_CNSTRFULL)
+    left_out = [kind.name for kind in kinds if data.warning.number[kind]]
     if failure != BROKEN and left_out:
         failure, message = BROKEN, ", ".join(left_out)
     return EndedEpisode(

@@ -1,7 +1,7 @@
 """Episodes of arms in contact: a controller on trials of a task and an arm, one record an episode back."""
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -10,7 +10,7 @@ from bench.base.errors import BadNumber, UnknownWord
 from bench.engines import contact_episode, reference
 from bench.engines.compiled import TOUCH, compile_function, compile_once, register
 from bench.engines.contact_episode import BROKEN, TIME, USUAL, Conditions, EndedEpisode, made
-from bench.engines.episode import FAILURE_TICK, FIRST_METRIC, NEVER, OUTCOME, START_WIDTH, Numbers
+from bench.engines.episode import FAILURE_TICK, FIRST_METRIC, NEVER, OUTCOME, START_WIDTH
 from bench.engines.mujoco_view import compiled_view
 from bench.engines.native import trapped
 from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS, model_of, skip_constraints
@@ -25,8 +25,6 @@ from tasks.contact_model import STANDARD, ContactModel, model_xml
 from tasks.verdict import GOING
 
 ENGINES = ("native", "reference")
-
-Trials = tuple[Trial, ...]
 
 
 def run_contact(
@@ -51,21 +49,12 @@ def run_contact(
     check_contact(contact)
     for trial in trials:
         check_trial(trial, arm)
-    if engine == "reference":
-        return _plain_episodes(controller, task, arm, trials, conditions, contact)
-    return _episodes(simulation(task, arm, conditions, contact), controller, task, arm, trials, conditions)
+    scene = None if engine == "reference" else simulation(controller, task, arm, conditions, contact)
+    return (_episode(scene, controller, task, arm, trial, conditions, contact) for trial in trials)
 
 
-class Scene(NamedTuple):
-    """What all trials of a task on an arm share: MuJoCo's model and data, and of the loop's world what is no trial's."""
-
-    model: mujoco.MjModel
-    data: mujoco.MjData
-    world: dict[str, Any]
-
-
-def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: ContactModel = STANDARD) -> Scene:
-    """Return a fresh scene."""
+def simulation(controller: ContactController, task: ContactTask, arm: Arm, conditions: Any, contact: Any) -> tuple:
+    """Return a fresh model and its data, what of the loop's world is no trial's, the loop, and the laws it calls."""
     model = skip_constraints(model_of(model_xml(task, arm, conditions.dt_s, contact), conditions.integrator))
     data = mujoco.MjData(model)
     gap, turned = contact_episode.sensors_of(model)
@@ -82,54 +71,29 @@ def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: Con
         "touch": conditions.touch,
         "noise": conditions.sensor.draw_noise(task.horizon_s, conditions.dt_s),
     }
-    return Scene(model, data, world)
+    return model, data, world, _loop(), (_pointer(controller._replace(form="")),)
 
 
-def _plain_episodes(
-    controller: ContactController, task: ContactTask, arm: Arm, trials: Trials, conditions: Any, contact: Any
-) -> Iterator[EndedEpisode]:
-    for trial in trials:
-        shape = contact_episode.numbers(controller, task, trial, arm.rated, conditions)
-        record = _blank_record(contact_episode.limits(task, conditions))
+def _episode(
+    scene: Any, controller: ContactController, task: ContactTask, arm: Arm, trial: Trial, conditions: Any, contact: Any
+) -> EndedEpisode:
+    shape = contact_episode.numbers(controller, task, trial, arm.rated, conditions)
+    limits = contact_episode.limits(task, conditions)
+    record = np.full((limits.ticks, contact_episode.WIDTH), np.nan)
+    if scene is None:
         row, message, data = reference.run_contact(controller, task, arm, trial, conditions, contact, shape, record)
-        yield _ended(record, row, message, data)
-
-
-def _episodes(
-    scene: Scene, controller: ContactController, task: ContactTask, arm: Arm, trials: Trials, conditions: Any
-) -> Iterator[EndedEpisode]:
-    model, data, world = scene
-    loop, laws = _loop(), (_pointer(controller._replace(form="")),)
-    limits, start = contact_episode.limits(task, conditions), np.zeros((1, START_WIDTH))
-    before: Trial | None = None
-    for trial in trials:
-        if before is None or not _differ_in_push_alone(before, trial):
-            shape = contact_episode.numbers(controller, task, trial, arm.rated, conditions)
-        before = trial
-        record, row = _blank_record(limits), np.zeros(FIRST_METRIC)
+    else:
+        (model, data, parts, loop, laws), row, message = scene, np.zeros(FIRST_METRIC), ""
         mujoco.mj_resetData(model, data)
         prepare(model, data, trial)
-        world["work"].legs[: len(trial.pushes)] = trial.pushes
-        filled = in_contact.ContactWorld(**world, shape=shape, record=record)
-        simulate(loop, laws, filled, NO_MEMORY, start, limits, row[None])
-        yield _ended(record, row, "", data)
-
-
-def _differ_in_push_alone(one: Trial, other: Trial) -> bool:
-    """Tell whether two trials have the same numbers (`contact_episode.numbers`), as most that follow each other have."""
-    is_one_wish = one.specification is other.specification and one.goal_wxyz is other.goal_wxyz
-    return is_one_wish and len(one.pushes) == len(other.pushes)
-
-
-def _blank_record(limits: Numbers) -> np.ndarray:
-    return np.full((limits.ticks, contact_episode.WIDTH), np.nan)
-
-
-def _ended(record: np.ndarray, row: np.ndarray, message: str, data: Any) -> EndedEpisode:
+        parts["work"].legs[: len(trial.pushes)] = trial.pushes
+        world = in_contact.ContactWorld(**parts, shape=shape, record=record)
+        simulate(loop, laws, world, NO_MEMORY, np.zeros((1, START_WIDTH)), limits, row[None])
     failure = GOING if row[FAILURE_TICK] == NEVER else int(row[OUTCOME])
+    error = ""
     if failure == BROKEN:
-        message = message or trapped.batch().error()
-    return made(record, failure, int(np.isfinite(record[:, TIME]).sum()), message if failure == BROKEN else "", data)
+        error = message or trapped.batch().error()
+    return made(record, failure, int(np.isfinite(record[:, TIME]).sum()), error, data)
 
 
 def _loop() -> Callable:

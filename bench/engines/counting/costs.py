@@ -22,6 +22,9 @@ from bench.law.inputs import NO_MEMORY
 FLOPS = ("add", "mul", "div", "sqrt")
 BRANCHES = ("typical", "worst")
 
+PACK = struct.Struct("<d").pack
+"""A double as eight bytes."""
+
 
 class Cost(NamedTuple):
     """Operations per tick of one contender, or controller in contact; the rules are `bench.engines.counting.RULES`.
@@ -119,15 +122,7 @@ def _call(
     """Return the call, and the memory the law left (empty for a law without, or if it raised)."""
     given = (state.R, state.omega, state.goal, GAINS, *memory)
     tally.stage = "regulate"
-
-    def plain_answer() -> Any:
-        try:
-            return plain(*floats(given))
-        except Exception:
-            # numpy's numbers take three times as long; they divide by zero where Python's raise
-            return plain(*given)
-
-    call, want = checked(contender.name, state, tally, plain_answer, lambda: counting(*counted(given, tally)))
+    call, want = checked(contender.name, state, tally, lambda: plain(*given), lambda: counting(*counted(given, tally)))
     return call, want[1] if memory and want is not None else ()
 
 
@@ -160,14 +155,12 @@ def checked(
 
 def counted(numbers: Any, tally: Tally) -> Any:
     """Return nested tuples and arrays with every float replaced by a counting scalar; counts of things stay ints."""
-    if isinstance(numbers, float):
-        return Counted(numbers, tally)
     if isinstance(numbers, int):
         return numbers
     if isinstance(numbers, np.ndarray):
-        return np.frompyfunc(lambda number: Counted(number, tally), 1, 1)(numbers)
+        return np.frompyfunc(lambda number: Counted(float(number), tally), 1, 1)(numbers)
     if not isinstance(numbers, tuple):
-        return Counted(numbers, tally)
+        return Counted(float(numbers), tally)
     inside = [counted(number, tally) for number in numbers]
     return type(numbers)(*inside) if hasattr(numbers, "_fields") else tuple(inside)
 
@@ -183,29 +176,9 @@ def values(answer: Any) -> Any:
 
 def bits(answer: Any) -> bytes:
     """Return the numbers of an answer, bit by bit: NaN equals NaN, and 0.0 is not -0.0."""
-    leaves: list[Any] = []
-    _add_leaves(answer, leaves)
-    if all(isinstance(leaf, float) for leaf in leaves):
-        return struct.pack(f"<{len(leaves)}d", *leaves)
-    return b"".join(struct.pack("<d", leaf) if isinstance(leaf, float) else repr(leaf).encode() for leaf in leaves)
-
-
-def _add_leaves(answer: Any, leaves: list[Any]) -> None:
-    """Add what nested tuples hold, numbers as floats, to a list."""
     if isinstance(answer, tuple):
-        for part in answer:
-            _add_leaves(part, leaves)
-        return
-    if isinstance(answer, Counted):
-        answer = answer.value
-    if isinstance(answer, int | float):
-        answer = float(answer) if answer == answer else math.nan
-    leaves.append(answer)
-
-
-def floats(numbers: Any) -> Any:
-    """Return nested tuples with every number of numpy's replaced by a float of Python's."""
-    if isinstance(numbers, float):
-        return float(numbers)
-    inside = map(floats, numbers)
-    return type(numbers)(*inside) if hasattr(numbers, "_fields") else tuple(inside)
+        return b"".join(map(bits, answer))
+    number = values(answer)
+    if not isinstance(number, float):
+        return repr(number).encode()
+    return PACK(number if number == number else math.nan)

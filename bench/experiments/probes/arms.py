@@ -27,7 +27,6 @@ from bench.experiments.probe_values.arms import (
 )
 from bench.experiments.probes.number import Number
 from bench.experiments.request import Request
-from bench.experiments.starts import on_arm
 from bench.experiments.suites import IDEAL_MOTORS, ON_ARM
 from bench.law.contenders.registry import representation
 from bench.law.control.contact_controller import PAPERS_FORM
@@ -57,19 +56,10 @@ def linear_response(times: np.ndarray, gains: Gains) -> np.ndarray:
 
     The closed form stands in `bench.findings.theory`, which no measurement shares.
     """
-    return np.array([respond(time, gains) for time in times.tolist()])
-
-
-@functools.lru_cache(maxsize=4096)
-def respond(time_s: float, gains: Gains) -> float:
-    """Return x(t) at one time, computed once for all curves, which share their times.
-
-    An exponential takes 10 ms where the threads of the linear algebra wait for a busy processor.
-    """
     from scipy.linalg import expm
 
     system = np.array([[0.0, 1.0], [-gains.kp, -gains.kv]])
-    return float(expm(system * time_s)[0, 0])
+    return expm(system * np.asarray(times)[:, None, None])[:, 0, 0]
 
 
 def euler_angles(R: Rotation) -> tuple:
@@ -88,8 +78,10 @@ def curves(
     frame = traces.rows(replace(request, dt_s=dt_s, seed=0), unit)
     goals = {
         start.id: start.goal_wxyz
-        for start in on_arm(CLEAR, count, 0, arm)
+        for start in tasks.start_set(CLEAR, count, 0, arm=arm)
     }
+    # Once for all curves, which have the first of these times: an exponential takes up to 10 ms on a busy machine.
+    response = linear_response(frame["time_s"].unique(), request.gains)
     parts = []
     for start_id, curve in frame.groupby("start_id", sort=False):
         axes = [
@@ -103,11 +95,8 @@ def curves(
             ]
         )
         E_d = np.array(euler_angles(from_quaternion(goals[str(start_id)])))
-        response = linear_response(
-            curve["time_s"].to_numpy(), request.gains
-        )
         part = curve[["start_id", "time_s", "position_error_m"]].copy()
-        part[list(BENDS)] = E - (E_d + (E[0] - E_d) * response[:, None])
+        part[list(BENDS)] = E - (E_d + (E[0] - E_d) * response[: len(E), None])
         parts.append(part)
     return pd.concat(parts, ignore_index=True)
 

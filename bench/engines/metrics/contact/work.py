@@ -15,7 +15,7 @@ from bench.law.so3 import Rotation, from_quaternion, relative, rotate_back
 # Ticks of an episode that are looked at, evenly spaced: nothing in a rounding depends on the tick.
 TICKS = 16
 
-Port = tuple[Sequence[float], Sequence[float], Sequence[float], Sequence[float]]
+Port = tuple[Sequence[float], ...]
 """m, omega, F_E and Edot of one tick, three numbers each."""
 
 
