@@ -68,8 +68,16 @@ def check_contact(contact: ContactModel) -> None:
 
 
 def _check_numbers(what: str, given: Any, count: int, unit: str, of: str = "") -> None:
-    if np.shape(given) != (count,) or not np.isfinite(given).all():
+    if not _are_finite(given, count):
         raise BadValue(f"{what} = {_on_one_line(given)} must be {count} finite numbers [{unit}]{of}")
+
+
+def _are_finite(given: Any, count: int) -> bool:
+    """Tell whether something is so many finite numbers."""
+    if isinstance(given, tuple) and len(given) == count and all(isinstance(number, float) for number in given):
+        # numpy says the same, and takes ten times as long
+        return all(map(math.isfinite, given))
+    return np.shape(given) == (count,) and bool(np.isfinite(given).all())
 
 
 def _on_one_line(given: Any) -> str:

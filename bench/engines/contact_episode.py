@@ -174,7 +174,7 @@ def setpoint(R_d, p_0, numbers, time):
 def made(record: np.ndarray, failure: int, ticks: int, message: str, data: Any) -> EndedEpisode:
     """Return the episode of a filled record; broken if MuJoCo left out contacts or constraints for want of memory."""
     kinds = (mujoco.mjtWarning.mjWARN_CONTACTFULL, mujoco.mjtWarning.mjWARN_CNSTRFULL)
-    left_out = [kind.name for kind in kinds if data.warning[kind].number]
+    left_out = [kind.name for kind in kinds if data.warning.number[kind]]
     if failure != BROKEN and left_out:
         failure, message = BROKEN, ", ".join(left_out)
     return EndedEpisode(

@@ -49,22 +49,29 @@ def run_contact(
     check_contact(contact)
     for trial in trials:
         check_trial(trial, arm)
-    scene = None if engine == "reference" else simulation(task, arm, conditions, contact)
+    scene = None if engine == "reference" else simulation(controller, task, arm, conditions, contact)
     return (_episode(scene, controller, task, arm, trial, conditions, contact) for trial in trials)
 
 
-def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: ContactModel = STANDARD) -> tuple:
-    """Return a fresh model of a task on an arm, its data, and of the loop's world what is no trial's."""
+def simulation(controller: ContactController, task: ContactTask, arm: Arm, conditions: Any, contact: Any) -> tuple:
+    """Return a fresh model and its data, what of the loop's world is no trial's, the loop, and the laws it calls."""
     model = skip_constraints(model_of(model_xml(task, arm, conditions.dt_s, contact), conditions.integrator))
     data = mujoco.MjData(model)
-    asked = np.array((model._address, data._address, 0), np.int64)
     gap, turned = contact_episode.sensors_of(model)
     world = {
-        **{"sim": compiled_view(model, data), "n": arm.joints, "push": data.xfrc_applied[model.body("hand").id]},
-        **{"gap": gap, "turned": turned, "work": in_contact.work(arm.joints, model.nv)},
-        **{"batch": trapped.batch().address, "callback": trapped.CALLBACK, "asked": asked},
+        "sim": compiled_view(model, data),
+        "n": arm.joints,
+        "push": data.xfrc_applied[model.body("hand").id],
+        "gap": gap,
+        "turned": turned,
+        "batch": trapped.batch().address,
+        "callback": trapped.CALLBACK,
+        "asked": np.array((model._address, data._address, 0), np.int64),
+        "work": in_contact.work(arm.joints, model.nv),
+        "touch": conditions.touch,
+        "noise": conditions.sensor.draw_noise(task.horizon_s, conditions.dt_s),
     }
-    return model, data, world
+    return model, data, world, _loop(), (_pointer(controller._replace(form="")),)
 
 
 def _episode(
@@ -76,20 +83,17 @@ def _episode(
     if scene is None:
         row, message, data = reference.run_contact(controller, task, arm, trial, conditions, contact, shape, record)
     else:
-        (model, data, parts), row, message = scene, np.zeros(FIRST_METRIC), ""
+        (model, data, parts, loop, laws), row, message = scene, np.zeros(FIRST_METRIC), ""
         mujoco.mj_resetData(model, data)
         prepare(model, data, trial)
         parts["work"].legs[: len(trial.pushes)] = trial.pushes
-        touch, start = conditions.touch, np.zeros((1, START_WIDTH))
-        noise = conditions.sensor.draw_noise(task.horizon_s, conditions.dt_s)
-        world = in_contact.ContactWorld(
-            **parts, shape=shape, touch=touch, record=record, noise=noise
-        )
-        simulate(_loop(), (_pointer(controller._replace(form="")),), world, NO_MEMORY, start, limits, row[None])
+        world = in_contact.ContactWorld(**parts, shape=shape, record=record)
+        simulate(loop, laws, world, NO_MEMORY, np.zeros((1, START_WIDTH)), limits, row[None])
     failure = GOING if row[FAILURE_TICK] == NEVER else int(row[OUTCOME])
+    error = ""
     if failure == BROKEN:
-        message = message or trapped.batch().error()
-    return made(record, failure, int(np.isfinite(record[:, TIME]).sum()), message if failure == BROKEN else "", data)
+        error = message or trapped.batch().error()
+    return made(record, failure, int(np.isfinite(record[:, TIME]).sum()), error, data)
 
 
 def _loop() -> Callable:

@@ -89,22 +89,19 @@ class ContactMetric(NamedTuple):
 
 def response(trial: Trial, ended: EndedEpisode) -> ContactResponse:
     """Return the arrays of an episode's record; ticks at which it holds nothing finite stay as they are."""
-    from bench.engines.contact_episode import FORCE, GAP, LOAD, MOMENT, OMEGA, TURNED, P, R
+    from bench.engines.contact_episode import FORCE, GAP, MOMENT, OMEGA, TIME, P, R
 
-    ends = (R, OMEGA, P, FORCE, MOMENT, GAP, TURNED, LOAD)
-    time, columns, omega, p, force, moment, *scalars = np.split(ended.record, ends, axis=1)
-    frames, (gap, turned, load) = columns.reshape(-1, 3, 3).transpose(0, 2, 1), (one[:, 0] for one in scalars)
+    record = ended.record
+    frames = record[:, R:OMEGA].reshape(-1, 3, 3).transpose(0, 2, 1)
     return ContactResponse(
         trial,
         ended.outcome,
-        time[:, 0],
+        record[:, TIME],
         frames,
-        omega,
-        p,
-        force,
-        moment,
-        gap,
-        turned,
-        load,
+        record[:, OMEGA:P],
+        record[:, P:FORCE],
+        record[:, FORCE:MOMENT],
+        record[:, MOMENT:GAP],
+        *record[:, GAP:].T,
         ended.rested,
     )

@@ -51,14 +51,19 @@ def in_free_space(pose: Pose) -> bool:
 
 
 @once_a_pose
+def turns(pose: Pose) -> np.ndarray:
+    """Return the rotation vector [rad] from start to end of each of a pose's k episodes, k x 3, base frame."""
+    return rotation_vector(np.array([one.R[-1] @ one.R[0].T for one in pose.responses]))
+
+
+@once_a_pose
 def compliance(pose: Pose) -> np.ndarray:
     """C [rad/(N m)], 3 x 3: C[i, j] is the rotation about i per moment about j at the end of the episodes."""
     ran = pose.responses
     if not all(one.outcome == "done" and is_moment(one.trial) for one in ran) or not in_free_space(pose):
         return NOTHING
     moments = np.array([one.trial.push[3:] for one in ran])
-    angles = rotation_vector(np.array([one.R[-1] @ one.R[0].T for one in ran]))
-    transposed, _, rank, _ = np.linalg.lstsq(moments, angles, rcond=None)
+    transposed, _, rank, _ = np.linalg.lstsq(moments, turns(pose), rcond=None)
     return transposed.T if rank == 3 else NOTHING
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from bench.engines.metrics.contact_force import last
 from bench.engines.metrics.contact_metric import ContactMetric, Pose
-from bench.engines.metrics.measured_compliance import compliance, complying, held, is_still, turned
+from bench.engines.metrics.measured_compliance import compliance, complying, held, is_still, turned, turns
 
 
 def leakage(pose: Pose) -> float:
@@ -25,7 +25,7 @@ def held_turn(pose: Pose) -> float:
     about = held(pose)
     if not about.any() or any(one.outcome != "done" for one in pose.responses):
         return np.nan
-    return float(max(np.linalg.norm(turned(one.R)[about]) for one in pose.responses))
+    return float(max(np.linalg.norm(turn[about]) for turn in turns(pose)))
 
 
 def loop_drift(pose: Pose) -> float:
