@@ -29,9 +29,8 @@ def COMMAND(folder: Path | None, criteria: bool, paper: str) -> None:
     from bench.base.files import read_json
     from bench.experiments.tables.run import WHOLE, Run, shown_folder
     from bench.findings.claims import MURPHY, all_claims, at_gains, judge_possible
-    from bench.findings.claims.tables import COLUMNS
 
-    run = Run(folder or shown_folder(), columns=COLUMNS)
+    run = Run(folder or shown_folder())
     run.table("episodes")  # refuses a run that has not finished
     with progress("claims", "judging the paper's claims"):
         verdicts, lacks = judge_possible(run, paper)

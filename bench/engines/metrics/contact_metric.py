@@ -89,7 +89,7 @@ class ContactMetric(NamedTuple):
 
 def response(trial: Trial, ended: EndedEpisode) -> ContactResponse:
     """Return the arrays of an episode's record; ticks at which it holds nothing finite stay as they are."""
-    from bench.engines.contact_episode import FORCE, GAP, MOMENT, OMEGA, TIME, P, R
+    from bench.engines.contact_episode import FORCE, GAP, LOAD, MOMENT, OMEGA, TIME, TURNED, P, R
 
     record = ended.record
     frames = record[:, R:OMEGA].reshape(-1, 3, 3).transpose(0, 2, 1)
@@ -102,6 +102,8 @@ def response(trial: Trial, ended: EndedEpisode) -> ContactResponse:
         record[:, P:FORCE],
         record[:, FORCE:MOMENT],
         record[:, MOMENT:GAP],
-        *record[:, GAP:].T,
+        record[:, GAP],
+        record[:, TURNED],
+        record[:, LOAD],
         ended.rested,
     )

@@ -95,7 +95,6 @@ class Run:
         frames: Tables by name that stand in place of those of the folder; `timings` among them.
         timings_folder: Folder of the times of machines.
         others: Runs that stand in place of results/gains and results/reference; None for those.
-        columns: Tables of which only some columns are read from the folder, and these columns.
         chosen: The rows that were read, as (table, condition); a claim clears it.
     """
 
@@ -105,13 +104,11 @@ class Run:
         frames: Mapping[str, pd.DataFrame] | None = None,
         timings: Path = TIMINGS,
         others: Sequence[Run] | None = None,
-        columns: Mapping[str, tuple[str, ...]] | None = None,
     ):
         self._folder = folder
         self.frames = dict(frames or {})
         self.timings_folder = timings
         self.others = others
-        self.columns = dict(columns or {})
         self.chosen: list[tuple[str, str]] = []
         self._rows: dict[tuple[str, str], pd.DataFrame] = {}
         self._probes: dict[tuple[str, str], pd.DataFrame] = {}
@@ -160,7 +157,7 @@ class Run:
             raise NoEvidence(
                 f"table '{name}': there is no folder to read it from; give one, or its frame"
             )
-        return read_table(self._folder, name, self.columns.get(name))
+        return read_table(self._folder, name)
 
     def rows(self, name: str, **words: Words) -> pd.DataFrame:
         """Return the rows of a table that have these words; NoEvidence if there are none."""

@@ -14,7 +14,7 @@ from bench.base.errors import NoEvidence
 from bench.experiments.tables.run import MAIN_ENGINE, Run
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.amounts import join_words
-from bench.findings.claims.tables import CHECK_ENGINES, COLUMNS, evidence
+from bench.findings.claims.tables import CHECK_ENGINES, evidence
 from bench.findings.claims.verdict import Evidence, Word, verb_phrase
 from bench.law.inputs import Gains
 
@@ -51,7 +51,7 @@ def other_gains(run: Run) -> list[Run]:
 @functools.cache
 def _run_of(folder: Path) -> Run:
     """Return the run in a folder, one for all claims, so that what they share is computed once."""
-    return Run(folder, columns=COLUMNS)
+    return Run(folder)
 
 
 def at_every_gain(decide: Callable) -> Callable:

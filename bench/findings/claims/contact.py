@@ -6,7 +6,6 @@ import numpy as np
 
 from bench.base.errors import NoEvidence
 from bench.base.on_first_use import pd
-from bench.experiments.tables.rows import number_rows
 from bench.experiments.tables.run import Run, require_rows
 from bench.findings.amounts import capitalize, count, count_of
 from bench.findings.claims.euler_jacobian import COORDINATES
@@ -96,21 +95,15 @@ def _depends(task: str, rows: pd.DataFrame, forms: tuple[str, ...]) -> bool:
     """Whether on every arm and in every form that it has run some pair with a turned frame parts."""
     for form in forms:
         require_rows(rows[rows["form"] == form], f"pose of {task}, +{form}")
-    first, number = number_rows(rows, ("arm", "form"))
-    arms, of_forms = (rows[column].to_numpy()[first] for column in ("arm", "form"))
-    is_turned = rows["is_turned"].to_numpy()
-    is_straight = rows["beta"].abs().to_numpy() <= ZERO_RAD
-    parts = rows["parts"].to_numpy()
     found = []
-    for arm, form, place in sorted(zip(arms, of_forms, range(len(first)), strict=True)):
-        own = number == place
-        turned = own & is_turned
-        if not (turned.any() and (own & is_straight).any()):
+    for (arm, form), own in rows.groupby(["arm", "form"]):
+        turned, straight = own[own["is_turned"]], own[own["beta"].abs() <= ZERO_RAD]
+        if turned.empty or straight.empty:
             raise NoEvidence(
                 f"{task} on {arm}, {form}: no frames both at beta = 0 and from "
                 f"{TURNED_DEG:g} degrees"
             )
-        found.append(parts[turned].any())
+        found.append(turned["parts"].any())
     return all(found)
 
 

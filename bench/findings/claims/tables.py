@@ -21,7 +21,6 @@ import numpy as np
 
 from bench.base.errors import NoEvidence
 from bench.base.on_first_use import pd
-from bench.experiments.columns import CONTENDER_KEY
 from bench.experiments.tables.rows import has_words
 from bench.experiments.tables.run import (
     FREE_BODY,
@@ -36,8 +35,6 @@ from bench.experiments.tables.schema import RESULTS
 from bench.findings.amounts import count_of
 from bench.findings.claims.verdict import Evidence
 from bench.findings.start_sets import describe_lacking, least_starts
-from bench.law.control.setpoint import ContactParameters
-from bench.law.inputs import Gains
 
 if TYPE_CHECKING:
     from bench.experiments.tables.statistics import Estimate
@@ -45,28 +42,6 @@ if TYPE_CHECKING:
 
 CHECK_ENGINES = ("ideal-held", "native")
 SETTLED = "settled"
-
-COLUMNS = {
-    "episodes": (
-        *CONTENDER_KEY,
-        *("task", "arm", "variation", "engine", "start_set", "start_id", "kp", "kv", "dt_s", "horizon_s"),
-        *("alpha0", "beta0", "gamma0", "angle0_rad", "omega0_x", "omega0_y", "omega0_z"),
-        *("goal_quat_w", "goal_quat_x", "goal_quat_y", "goal_quat_z"),
-        *("outcome", "converged", "settling_time_s", "final_angle_rad", "path_ratio", "min_margin"),
-        *("peak_u", "peak_tau_nm", "ticks"),
-    ),
-    "compliance": (
-        *("controller", "representation", "form", "jacobian", "inverse", "task", "arm", "pose"),
-        *("complies", "alpha", "beta", "gamma", "horizon_s", "outcome", "held_turn_rad"),
-        *Gains._fields,
-        *ContactParameters._fields,
-        *(f"c_{row}{column}" for row in "xyz" for column in "xyz"),
-        *("alignment_error_rad", "insertion_depth_m", "normal_force_error_n", "work_residual"),
-        *("force_error_rms_n", "moment_error_rms_nm", "peak_force_n", "peak_moment_nm"),
-    ),
-}
-"""Columns that claims read of the two widest tables, for `Run`: reading is a fifth of the time of `bench claims`. A
-claim that needs another column of these tables adds it here."""
 
 
 def episodes_of(run: Run, regulator: str, engine: str, *start_sets: str) -> pd.DataFrame:

@@ -45,7 +45,7 @@ def sample_ports(
     ticks = np.linspace(0, len(response.time) - 1, TICKS).astype(int)
     frames = response.R[ticks].transpose(0, 2, 1).tolist()
     moments, velocities = response.moment[ticks].tolist(), response.omega[ticks].tolist()
-    ports = []
+    ports: list[Port] = []
     for columns, m, omega in zip(frames, moments, velocities, strict=True):
         R = Rotation(*columns)
         if from_goal:
