@@ -49,7 +49,10 @@ IN_WORDS = ["the rotation-matrix law", "the linearized law", "feedback lineariza
 
 @claim("C12")
 def c12(run: Run) -> tuple[Word, Evidence]:
-    """Neighbours by time, and by flops and calls in both accountings."""
+    """Compare neighbours by time, and by flops and calls in both accountings.
+
+    Those are of costs.parquet, typical branch: the stage total, without the stage goal and with it.
+    """
     known = adequacy.of_three(run)
     pairs = [known.stand(*pair) for pair in itertools.pairwise(THREE)]
     if not all(one.sign for one in pairs):
