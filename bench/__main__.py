@@ -9,6 +9,14 @@ import sys
 OBJECTS = 100_000
 """New objects after which Python looks for cycles of unused ones: some 10 MB."""
 
+SETTINGS = {
+    # Threads of OpenBLAS wait at full speed when NumPy is imported; no command has matrices of a size for them.
+    "OPENBLAS_NUM_THREADS": "1",
+    # No command draws. MuJoCo would look for a library of windows when it is imported, in processes of their own.
+    "MUJOCO_GL": "disable",
+}
+"""Variables of the environment, unless the user has set them."""
+
 
 def main() -> int:
     """Return the command line; imported late, so that importing this module costs nothing.
@@ -21,8 +29,8 @@ def main() -> int:
 
         # Looking for cycles of unused objects after every 700 new ones takes a tenth of a command that reads tables.
         gc.set_threshold(OBJECTS)
-        # Threads of OpenBLAS wait at full speed when NumPy is imported; no command has matrices of a size for them.
-        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+        for name, value in SETTINGS.items():
+            os.environ.setdefault(name, value)
         os.environ["PYTHONSAFEPATH"] = "1"  # nor does a process of Dask or multiprocessing import from this folder
         from bench.base.signs import spell_where_needed
 

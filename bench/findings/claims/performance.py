@@ -49,10 +49,7 @@ IN_WORDS = ["the rotation-matrix law", "the linearized law", "feedback lineariza
 
 @claim("C12")
 def c12(run: Run) -> tuple[Word, Evidence]:
-    """Compare neighbours by time, and by flops and calls in both accountings.
-
-    Those are of costs.parquet, typical branch: the stage total, without the stage goal and with it.
-    """
+    """Compare neighbours by time, and by flops and calls of costs.parquet, with those of the stage goal and without."""
     known = adequacy.of_three(run)
     pairs = [known.stand(*pair) for pair in itertools.pairwise(THREE)]
     if not all(one.sign for one in pairs):
