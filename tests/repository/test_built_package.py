@@ -10,6 +10,7 @@ import pytest
 from support.command_line import python
 
 from bench.base.provenance import ROOT
+from tasks.found_starts import FOLDER
 
 pytestmark = pytest.mark.slow
 
@@ -48,6 +49,13 @@ def test_built_package_has_every_module_but_those_of_studies_of_other_programs(b
     left_out = {name for name in ours if name.startswith(LEFT_OUT)}
     assert {place for place in LEFT_OUT if any(name.startswith(place) for name in left_out)} == set(LEFT_OUT)
     assert found == ours - left_out
+
+
+@pytest.mark.parametrize("kind", ["wheel", "archive"])
+def test_built_package_has_the_starts_on_arms(built, kind):
+    names = {path.name for path in FOLDER.glob("*.json")}
+    assert names
+    assert {f"tasks/arm_starts/found/{name}" for name in names} <= built[kind]
 
 
 @pytest.mark.parametrize("study", ["libraries", "real_time", "restated"])
