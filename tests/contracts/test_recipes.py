@@ -87,8 +87,8 @@ def test_planted_axis_that_moves_the_goal_in_two_ways_is_refused(tmp_path):
 def test_planted_claim_is_judged_by_its_criterion_from_rows_without_another_file_touched(tmp_path):
     before = sources(copied(tmp_path))
     room = tmp_path / "bench" / "findings" / "claims"
-    (room / "spread.py").write_text(PLANTED_CLAIM)
-    (room / "spread.toml").write_text(CARD)
+    (room / "planted_spread.py").write_text(PLANTED_CLAIM)
+    (room / "planted_spread.toml").write_text(CARD)
     stored, alike, criterion = ran(tmp_path, "-c", TEXTS["asked_of_claim"], FREE, str(REFERENCE)).splitlines()
     rows = pq.read_table(REFERENCE / "episodes.parquet").to_pandas()
     rows = rows.query("task == 'free-body' and engine == 'ideal-rk4' and start_set == 'uniform'")

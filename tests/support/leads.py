@@ -296,8 +296,12 @@ def list_answers():
 
 def recompute_verdicts():
     now = {id: str(one) for id, one in read_json("verdicts/verdicts.json")["reference"].items()}
+    verdicts = claims.judge_all(RESULTS / "reference")
+    for verdict in verdicts:
+        # A claim that is newer than the study.
+        now.setdefault(verdict.claim.id, str(verdict.word))
     first = dict(now)
-    for verdict in claims.judge_all(RESULTS / "reference"):
+    for verdict in verdicts:
         for word_of_first in (one.word for one in verdict.claim.earlier[:1]):
             first[verdict.claim.id] = str(word_of_first or verdict.evidence.earlier[0])
     order = {"holds": [], "holds with a correction": [], "does not hold": []}
