@@ -155,11 +155,7 @@ def register(function: Callable) -> Callable:
 def compile_function(function: Callable, signature: Any, cache: bool = True, **options: Any) -> Callable:
     """Return the function compiled for one signature with our options and others; cached on disk if no user's law."""
     register_kernels()
-    compiled = numba.njit(signature, cache=cache, **JIT, **options)(function)
-    (result,) = compiled.overloads.values()
-    # A loop that is handed this function asks for it twice, and numba compares all types each time: 70 us a call.
-    compiled.get_compile_result = lambda _: result
-    return compiled
+    return numba.njit(signature, cache=cache, **JIT, **options)(function)
 
 
 def compile_loop(episodes: Callable, laws: tuple, world: Any = None) -> Callable:
