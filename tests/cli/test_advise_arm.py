@@ -105,7 +105,7 @@ def test_damping_that_is_unstable_is_said_first(capsys):
     [
         (
             "--arm pando --stiffness 50",
-            "arm 'pando' is not in tasks/arms; known: jaco, panda, puma560, ur5e",
+            f"arm 'pando' is not in tasks/arms; known: {', '.join(tasks.arm_names())}",
         ),
         (
             "--arm panda",
