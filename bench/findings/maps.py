@@ -11,9 +11,8 @@ import pandas as pd
 from bench.base.errors import NoTable
 from bench.experiments.tables.rows import number_rows
 from bench.experiments.tables.run import with_contender
-from bench.experiments.tables.statistics import Estimate
+from bench.experiments.tables.statistics import TAIL, Estimate
 from bench.experiments.tables.store import read, read_arrow
-from bench.findings.exact_interval import exact_interval
 from bench.law.inputs import Gains
 
 SPEEDS = ["least_speed", "most_speed"]
@@ -44,16 +43,25 @@ def at_gains(rows: pd.DataFrame, gains: Gains) -> pd.DataFrame:
     return rows[(rows["kp"] == gains.kp) & (rows["kv"] == gains.kv)]
 
 
+@functools.cache
 def lost_share(lost: int, of: int) -> Estimate:
     """Return a share with its exact 95 % interval (`exact_interval`)."""
-    return Estimate(lost / of, *exact_interval(lost, of))
+    low, high = exact_interval(np.array(lost), np.array(of))
+    return Estimate(lost / of, float(low), float(high))
 
 
-def exact_intervals(counts: np.ndarray, of: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return both ends of `exact_interval` of shares."""
-    pairs = zip(counts.tolist(), of.tolist(), strict=True)
-    low, high = np.array([exact_interval(*pair) for pair in pairs]).reshape(-1, 2).T
-    return low, high
+def exact_interval(counts: np.ndarray, of: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return both ends of the exact 95 % intervals of shares (C. Clopper, E. Pearson, Biometrika 26, 1934).
+
+    With k of n, the lower end is the 2.5 % quantile of the beta distribution with k and n - k + 1, and the upper end
+    the 97.5 % quantile of that with k + 1 and n - k. The ends are 0 where k = 0 and 1 where k = n.
+    """
+    from scipy.special import betaincinv
+
+    rest = of - counts
+    low = betaincinv(np.maximum(counts, 1), rest + 1, TAIL)
+    high = betaincinv(counts + 1, np.maximum(rest, 1), 1.0 - TAIL)
+    return np.where(counts > 0, low, 0.0), np.where(rest > 0, high, 1.0)
 
 
 def counted(rows: pd.DataFrame) -> pd.DataFrame:
@@ -116,7 +124,7 @@ def by_law(rows: pd.DataFrame) -> pd.DataFrame:
     last = slowest.drop_duplicates(key, keep="last")[[*key, "settling_time_s", "ring_deg"]]
     found = counted(rows).merge(last, how="left", on=key)
     of = found["starts"] - found["unconverged"]
-    low, high = exact_intervals(found["lost"].to_numpy(), of.to_numpy())
+    low, high = exact_interval(found["lost"].to_numpy(), of.to_numpy())
     shares = 1e6 * np.stack([found["lost"] / of, low, high], axis=1)
     return pd.DataFrame(
         {
@@ -156,8 +164,8 @@ def list_spun(numbers: pd.DataFrame) -> dict[tuple[str, Gains, str], list[Spun]]
     lost, unconverged, starts = (stated[name].to_numpy() for name in ("lost", "unconverged", "starts"))
     with np.errstate(invalid="ignore"):
         values = lost / (starts - unconverged)
-    least, _ = exact_intervals(lost, starts)
-    _, most = exact_intervals(lost + unconverged, starts)
+    least, _ = exact_interval(lost, starts)
+    _, most = exact_interval(lost + unconverged, starts)
     shares = zip(values.tolist(), least.tolist(), most.tolist(), strict=True)
     found: dict[tuple[str, Gains, str], list[Spun]] = {}
     columns = ["contender", "kp", "kv", "engine", "most_speed", "starts", "unconverged"]
