@@ -7,6 +7,7 @@ import functools
 import math
 import statistics
 import struct
+import threading
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
@@ -88,47 +89,85 @@ def size(counts: Counts) -> tuple[int, int]:
     return sum(numbers[name] for name in OPERATIONS), flops(numbers)
 
 
-def counted_calls(
-    contender: Contender, over: Iterable[CountedState] | None = None
-) -> Iterator[CountedCall]:
+class Given(NamedTuple):
+    """What a law is called with at a state: numbers, and the same numbers as counting scalars."""
+
+    state: CountedState
+    plain: tuple
+    counting: tuple
+
+
+class _Prepared(threading.local):
+    """All states with one tally, once a thread: to make counting scalars of them takes a quarter of the counting."""
+
+    def __init__(self) -> None:
+        self.tally = Tally()
+        self.given: list[Given] = []
+
+    def fill(self) -> list[Given]:
+        """Return what laws are called with at all states."""
+        if not self.given:
+            self.given = give(states(), self.tally)
+        return self.given
+
+
+_PREPARED = _Prepared()
+
+
+def give(over: Iterable[CountedState], tally: Tally) -> list[Given]:
+    """Return what a law is called with at some states, its counting scalars on this tally."""
+    found = []
+    for state in over:
+        plain = (state.R, state.omega, state.goal, GAINS)
+        found.append(Given(state, plain, counted(plain, tally)))
+    return found
+
+
+def counted_calls(contender: Contender, over: Iterable[CountedState] | None = None) -> Iterator[CountedCall]:
     """Yield all states counted, checked against the plain call; a law that raises costs what it computed until then."""
-    tally = Tally()
+    tally = _PREPARED.tally
+    every = _PREPARED.fill() if over is None else give(over, tally)
+    tally.take()  # of a law that was refused, something may be left
     plain, counting = contender.law, law_of(contender, tally)
     first = contender.regulator.memory
     left: tuple = ()
     with np.errstate(all="ignore"):
-        for state in states() if over is None else over:
+        for given in every:
             if first is None:
-                yield _call(contender, plain, counting, tally, state, ())[0]
+                yield _call(contender.name, plain, counting, tally, given, ())[0]
                 continue
             initial = tuple(np.float64(x) for x in (*first, *NO_MEMORY[len(first) :]))
             for memory in (initial, *((left,) if left else ())):
-                call, after = _call(contender, plain, counting, tally, state, (memory,))
+                call, after = _call(contender.name, plain, counting, tally, given, (memory,))
                 yield call._replace(is_typical=False)
                 left = after or initial
-            call, after = _call(contender, plain, counting, tally, state, (left,))
+            call, after = _call(contender.name, plain, counting, tally, given, (left,))
             yield call
             left = after or initial
 
 
 def _call(
-    contender: Contender,
+    name: str,
     plain: Callable,
     counting: Callable,
     tally: Tally,
-    state: CountedState,
+    given: Given,
     memory: tuple,
 ) -> tuple[CountedCall, tuple]:
     """Return the call, and the memory the law left (empty for a law without, or if it raised)."""
-    given = (state.R, state.omega, state.goal, GAINS, *memory)
     tally.stage = "regulate"
-    call, want = checked(contender.name, state, tally, lambda: plain(*given), lambda: counting(*counted(given, tally)))
+    memory_counted = counted(memory, tally)
+    call, want = checked(
+        name,
+        given.state,
+        tally,
+        lambda: plain(*given.plain, *memory),
+        lambda: counting(*given.counting, *memory_counted),
+    )
     return call, want[1] if memory and want is not None else ()
 
 
-def checked(
-    name: str, state: Any, tally: Tally, plain: Callable, counting: Callable
-) -> tuple[CountedCall, Any]:
+def checked(name: str, state: Any, tally: Tally, plain: Callable, counting: Callable) -> tuple[CountedCall, Any]:
     """Return a counted call, whose answer must be the plain one bit for bit; and that answer, None if it raised."""
     want, answer, trouble = None, None, None
     try:

@@ -72,25 +72,31 @@ def _quotient(x: float, y: float) -> float:
         return float(np.float64(x) / np.float64(y))
 
 
+CONSTANTS = (int, float)
+"""Types of the constants of a law; a tuple, because isinstance would make a union of `int | float` at every call."""
+
+
 def _dyadic(operation: str, compute: Callable) -> tuple[Callable, Callable]:
     place = OPERATIONS.index(operation)
 
     def forward(self: "Counted", other: Any) -> Any:
         if other.__class__ is Counted:
             value = other.value
-        elif isinstance(other, int | float):
+        elif isinstance(other, CONSTANTS):
             value = float(other)
         else:
             return NotImplemented
-        self.tally.now[place] += 1
-        return Counted(compute(self.value, value), self.tally)
+        tally = self.tally
+        tally.now[place] += 1
+        return Counted(compute(self.value, value), tally)
 
     def reflected(self: "Counted", other: Any) -> Any:
         """Apply the operation where the first operand is a constant; for two counting scalars `forward` is called."""
-        if not isinstance(other, int | float):
+        if not isinstance(other, CONSTANTS):
             return NotImplemented
-        self.tally.now[place] += 1
-        return Counted(compute(float(other), self.value), self.tally)
+        tally = self.tally
+        tally.now[place] += 1
+        return Counted(compute(float(other), self.value), tally)
 
     return forward, reflected
 
@@ -111,7 +117,7 @@ def _comparison(compute: Callable) -> Callable:
     def compare(self: "Counted", other: Any) -> Any:
         if other.__class__ is Counted:
             other = other.value
-        elif not isinstance(other, int | float):
+        elif not isinstance(other, CONSTANTS):
             return NotImplemented
         self.tally.now[place] += 1
         return bool(compute(self.value, other))

@@ -11,6 +11,7 @@ from bench.engines.metrics.contact_force import (
     force_error,
     from_first_touch,
     last,
+    lengths,
     moment_error,
     peak,
     remaining_error,
@@ -29,7 +30,7 @@ def contact_settling_time(pose: Pose) -> float:
     ordered = np.linalg.norm(pose.first.trial.specification.desired_wrench[:3])
     if one is None or touched is None or ordered == 0.0:
         return np.nan
-    outside = np.flatnonzero(np.linalg.norm(force_error(pose), axis=1) > RULES.tolerance * ordered)
+    outside = np.flatnonzero(lengths(force_error(pose)) > RULES.tolerance * ordered)
     settled = outside[-1] + 1 if outside.size else 0
     time = one.time[touched]
     return float(time[settled] - time[0]) if settled < len(time) else np.nan
@@ -62,8 +63,12 @@ def force_overshoot(pose: Pose) -> float:
 
 def largest(pose: Pose, field: str) -> float:
     """Return the largest length of a field of the records over all ticks; NaN if nothing was recorded."""
-    seen = np.concatenate([getattr(one, field) for one in pose.responses])
-    return float(np.fmax.reduce(np.linalg.norm(seen, axis=1) if seen.ndim > 1 else seen, initial=np.nan))
+    greatest = np.nan
+    for one in pose.responses:
+        seen = getattr(one, field)
+        sizes = lengths(seen) if seen.ndim > 1 else seen
+        greatest = np.fmax.reduce(sizes, initial=greatest)
+    return float(greatest)
 
 
 peak_force, peak_moment = partial(largest, field="force"), partial(largest, field="moment")
@@ -77,22 +82,12 @@ METRICS = (
         "contact_settling_time_s", "s", "settling time of the force, from the first touch", contact_settling_time
     ),
     ContactMetric("normal_force_error_n", "N", "error of the force normal to the plane, rms", normal_force_error),
-    ContactMetric(
-        "force_error_peak_n", "N", "error of the force exerted, largest", force_error_peak
-    ),
+    ContactMetric("force_error_peak_n", "N", "error of the force exerted, largest", force_error_peak),
     ContactMetric("force_error_rms_n", "N", "error of the force exerted, rms", force_error_rms),
-    ContactMetric(
-        "force_error_end_n", "N", "error of the force exerted at the end, mean", force_error_end
-    ),
-    ContactMetric(
-        "moment_error_end_nm", "N m", "error of the moment exerted at the end, mean", moment_error_end
-    ),
-    ContactMetric(
-        "moment_error_peak_nm", "N m", "error of the moment exerted, largest", moment_error_peak
-    ),
-    ContactMetric(
-        "moment_error_rms_nm", "N m", "error of the moment exerted, rms", moment_error_rms
-    ),
+    ContactMetric("force_error_end_n", "N", "error of the force exerted at the end, mean", force_error_end),
+    ContactMetric("moment_error_end_nm", "N m", "error of the moment exerted at the end, mean", moment_error_end),
+    ContactMetric("moment_error_peak_nm", "N m", "error of the moment exerted, largest", moment_error_peak),
+    ContactMetric("moment_error_rms_nm", "N m", "error of the moment exerted, rms", moment_error_rms),
     ContactMetric("force_overshoot", "1", "largest force over the one ordered, less 1", force_overshoot),
     ContactMetric("peak_force_n", "N", "largest force on the hand", peak_force),
     ContactMetric("peak_moment_nm", "N m", "largest moment on the hand", peak_moment),
