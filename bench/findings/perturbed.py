@@ -38,7 +38,8 @@ FAR_RAD = 0.5
 """Angle to a goal that jumps, up to which no path counts: the body's stop alone is a long one beside it."""
 
 WITHSTANDS = (
-    f"at most {100 * LOST:g} points fewer of its starts go well than at the mildest level; + : the last level tried"
+    f"at most {100 * LOST:g} points fewer of its starts go well than at the mildest level, where at least "
+    f"{100 * FEWEST:g} % do; + : the last level tried"
 )
 """What a threshold is, in words."""
 

@@ -1,6 +1,7 @@
 """Files as CONTRIBUTING.md shows them do, in a copy of the repository, what it says of them.
 
-A metric, an experiment, a perturbation and a claim are planted as they stand there, a law and an arm as it says.
+A metric, an experiment, a perturbation, a claim and a table of a page are planted as they stand there, a law and an arm
+as it says.
 """
 
 import json
@@ -23,6 +24,7 @@ from bench.law.inputs import PAPERS_GAINS
 PLANTED, LAWS = "tasks/conditions/rate_bias.py", "bench/law/contenders/regulators"
 [PLANTED_AXIS] = shown("A perturbation", 1)
 [PLANTED_METRIC] = shown("A metric", 1)
+[PLANTED_PAGE_TABLE] = shown("A table of a page", 1)
 PLANTED_EXPERIMENT, PLANTED_TABLE = shown("An experiment", 2)
 FREE = f"C{len(all_claims()) + 1:02d}"
 PLANTED_CLAIM, CARD = (text.replace("C48", FREE) for text in shown("A claim", 2))
@@ -167,6 +169,24 @@ def test_planted_experiment_writes_a_table_that_is_read_with_units_without_anoth
         assert count == len(starts)
         # Near 180° SciPy's angle has lost half its digits.
         assert angle == pytest.approx((R_d.inv() * R).magnitude().max(), abs=1e-7)
+    assert before.items() <= sources(tmp_path).items()
+
+
+def test_planted_table_of_a_page_has_the_medians_of_the_rows_without_another_file_touched(tmp_path):
+    before = sources(copied(tmp_path))
+    (tmp_path / "report/figures/replication/paths.py").write_text(PLANTED_PAGE_TABLE)
+    heads, _, *lines = ran(tmp_path, "-c", TEXTS["asked_of_page_table"], str(REFERENCE)).splitlines()
+    assert heads == "| Regulator | Starts | Median path / shortest path |"
+    rows = pq.read_table(REFERENCE / "episodes.parquet").to_pandas()
+    rows = rows.query("task == 'free-body' and engine == 'ideal-rk4' and start_set == 'uniform' and converged != 'no'")
+    assert len(lines) == 3
+    for line in lines:
+        law, starts, median = (cell.strip() for cell in line.strip("|").split("|"))
+        regulator, _, representation = law.partition("/")
+        ratios = rows.query("regulator == @regulator and representation == @representation")["path_ratio"]
+        assert int(starts.replace("\u00a0", "")) == len(ratios)
+        # The median as an element of the sample, rounded to the two places that are shown.
+        assert float(median) == pytest.approx(np.quantile(ratios, 0.5, method="inverted_cdf"), abs=0.005 + 1e-9)
     assert before.items() <= sources(tmp_path).items()
 
 

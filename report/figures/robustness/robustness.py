@@ -11,6 +11,7 @@ import tasks
 from bench.experiments.tables.run import Run, require_rows, with_contender
 from bench.findings.amounts import capitalize
 from bench.findings.perturbed import (
+    FEWEST,
     FOLLOWED_RAD,
     LOST,
     Direction,
@@ -110,6 +111,7 @@ def facts(run: Run) -> dict:
         "laws": len([law for law in each if law not in families.CONTROLS]),
         "axes": len(AXES),
         "lost": f"{100 * LOST:g}",
+        "fewest": f"{100 * FEWEST:g}",
         "held_deg": f"{np.degrees(FOLLOWED_RAD):g}",
         "starts": int(counted(run, "delay")["starts"].max()),
         "run_starts": starts(along(run, "delay")),

@@ -2,7 +2,8 @@
 
 About a fixed axis it is how far the body turns past the goal. Of the damped linear loop from rest (rotation-vector,
 zeta = kv/(2 sqrt(kp)) < 1) it is exp(-pi zeta/sqrt(1 - zeta^2)) times the start angle, wherever that is more than the
-band. Limitations: a body that passes the goal at more than the band's distance has not entered it yet.
+band. Limitations: a body that passes the goal at more than the band's distance has not entered it yet; an episode in
+which the band is never entered has the overshoot 0, too.
 """
 
 import math
