@@ -71,7 +71,7 @@ class Field(NamedTuple):
         lasts: Whether the perturbation goes on after the goal is reached, so that an episode runs
             to its horizon. It must be said.
         is_drawn: Whether its hooks read random numbers.
-        in_loop: Whether the loop itself reads it; its name is then in Loop.
+        in_loop: Whether the loop itself reads it; its name is then in LoopFields.
         measured_rate: (level, omega, now) -> the angular velocity that is measured [rad/s].
         measured_turn: (level, R, now) -> the rotation vector [rad] by which the measured
             orientation is turned from R.
