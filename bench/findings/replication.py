@@ -87,8 +87,13 @@ class Jacobians(NamedTuple):
     harder: Estimate
 
 
-def compare_jacobians(run: Run) -> Jacobians:
-    """Return how both Jacobians do past gimbal lock; NoEvidence: no arm ran such moves by both."""
+def pair_past_poles(run: Run) -> pd.DataFrame:
+    """Return the moves of arms past gimbal lock that both of the paper's controllers ran, a row a move.
+
+    NoEvidence: there is none. Columns: arm, kp, start_id; outcome and peak_torque_ratio of the law on
+    R by the geometric Jacobian (2.2); the same of (3.7), with the suffix _euler; and harder, the peak
+    of (3.7) over the other one, infinite where no number came back.
+    """
     rows = run.table(
         "episodes", task="arm-regulation", variation=IDEAL_MOTORS, start_set="pole", engine="native"
     )
@@ -100,6 +105,12 @@ def compare_jacobians(run: Run) -> Jacobians:
     both = geometric.astype(keys).merge(euler.astype(keys), on=columns[:3], suffixes=("", "_euler"))
     require_rows(both, "move of an arm past gimbal lock by both Jacobians")
     harder = both["peak_torque_ratio_euler"] / both["peak_torque_ratio"]
+    return both.assign(harder=harder.fillna(math.inf))
+
+
+def compare_jacobians(run: Run) -> Jacobians:
+    """Return how both Jacobians do past gimbal lock; NoEvidence: no arm ran such moves by both."""
+    both = pair_past_poles(run)
     return Jacobians(
         len(both),
         both["arm"].nunique(),
@@ -111,7 +122,7 @@ def compare_jacobians(run: Run) -> Jacobians:
             float(both["peak_torque_ratio"].median()),
             float(both["peak_torque_ratio_euler"].median()),
         ),
-        bootstrap(harder.fillna(math.inf).to_numpy(float), np.median),
+        bootstrap(both["harder"].to_numpy(float), np.median),
     )
 
 

@@ -8,14 +8,12 @@ from xml.etree import ElementTree
 import pandas as pd
 
 import tasks
-from bench.experiments.suites import IDEAL_MOTORS
 from bench.experiments.tables.run import Run
 from bench.findings.claims.adequacy import tallied
 from bench.findings.claims.controller_costs import BY_EULER, INVERSES, ON_MATRIX, controller_costs
 from bench.findings.claims.euler_jacobian import WELL_CONDITIONED
-from bench.findings.replication import compare_jacobians
+from bench.findings.replication import compare_jacobians, pair_past_poles
 from bench.law.contenders.registry import papers_coordinates
-from report.figures.arms import arm_rows
 from report.figures.arms.arm_rows import name_arm
 from report.figures.kit import html, media
 from report.figures.kit.page import in_run
@@ -51,26 +49,10 @@ def facts(run: Run) -> dict[str, Any]:
         "spoilt": in_run(lambda: count_spoilt(run.rows("poses", representation=PAPERS, pose_set="random"))),
         "pole-loop": media.loop(FILM),
         **describe_film(),
-        **(in_run(lambda: count_at_pole(pass_pole(run))) or {}),
+        **(in_run(lambda: count_at_pole(pair_past_poles(run))) or {}),
         **(in_run(compare_torque, run) or {}),
         "operations": in_run(lambda: describe_operations(run)),
     }
-
-
-def pass_pole(run: Run) -> pd.DataFrame:
-    """Join starts whose turn passes the pole of Z-Y-X angles: a row a start by (3.7), with (2.2) on R beside it."""
-    rows = arm_rows.with_standard(arm_rows.episodes(run, IDEAL_MOTORS))
-    starts = rows[rows["start_set"] == "pole"]
-    columns = ["arm", "start_id", "outcome", "peak_torque_ratio", "kp"]
-    own, other = (
-        starts.loc[starts["controller"] == name, columns] for name in (arm_rows.ON_ANGLES, arm_rows.ON_MATRIX)
-    )
-    both = own.merge(other, on=["arm", "start_id", "kp"], suffixes=("", "_matrix"))
-    return both.assign(
-        fails=both["outcome"] != "settled",
-        fails_matrix=both["outcome_matrix"] != "settled",
-        harder=both["peak_torque_ratio"] / both["peak_torque_ratio_matrix"],
-    )
 
 
 def compare_torque(run: Run) -> dict[str, str]:
@@ -82,12 +64,13 @@ def compare_torque(run: Run) -> dict[str, str]:
 
 def count_at_pole(both: pd.DataFrame) -> dict:
     """Return how many starts fail, and how much more torque the Euler Jacobian needs; and a row an arm."""
-    hammered = ~both["fails"] & (both["harder"] > HAMMERED)
+    fails, fails_euler = both["outcome"] != "settled", both["outcome_euler"] != "settled"
+    hammered = ~fails_euler & (both["harder"] > HAMMERED)
     return {
         "pole": POLE(compare_at_pole(both)),
         "pole_n": len(both),
-        "pole_fails": int(both["fails"].sum()),
-        "pole_fails_m": int(both["fails_matrix"].sum()) or "none",
+        "pole_fails": int(fails_euler.sum()),
+        "pole_fails_m": int(fails.sum()) or "none",
         "hammer": f"{HAMMERED:g}",
         "hammered": int(hammered.sum()),
         "weak": describe_weak_motors(both),
@@ -98,9 +81,9 @@ def compare_at_pole(both: pd.DataFrame) -> Iterator[tuple]:
     """Return a row an arm."""
     for arm, own in both.groupby("arm"):
         cells = []
-        for end in ("_matrix", ""):
+        for end in ("", "_euler"):
             torque = float(f"{own[f'peak_torque_ratio{end}'].median():.2g}")
-            cells += [count_words(int((~own[f"fails{end}"]).sum()), len(own)), torque]
+            cells += [count_words(int((own[f"outcome{end}"] == "settled").sum()), len(own)), torque]
         yield name_arm(arm), len(own), *cells
 
 
@@ -133,7 +116,7 @@ def describe_weak_motors(both: pd.DataFrame) -> str:
     """Explain the arms that exceed their rated torque with the geometric Jacobian, too."""
     sentences = []
     for arm, rows in both.groupby("arm"):
-        ratio, kp = float(rows["peak_torque_ratio_matrix"].median()), float(rows["kp"].iloc[0])
+        ratio, kp = float(rows["peak_torque_ratio"].median()), float(rows["kp"].iloc[0])
         motor = find_weakest_motor(str(arm))
         if ratio <= 1.0 or not motor.inertia:
             continue
