@@ -183,7 +183,8 @@ def test_planted_table_of_a_page_has_the_medians_of_the_rows_without_another_fil
     for line in lines:
         law, starts, median = (cell.strip() for cell in line.strip("|").split("|"))
         regulator, _, representation = law.partition("/")
-        ratios = rows.query("regulator == @regulator and representation == @representation")["path_ratio"]
+        is_own = (rows["regulator"] == regulator) & (rows["representation"] == representation)
+        ratios = rows.loc[is_own, "path_ratio"]
         assert int(starts.replace("\u00a0", "")) == len(ratios)
         # The median as an element of the sample, rounded to the two places that are shown.
         assert float(median) == pytest.approx(np.quantile(ratios, 0.5, method="inverted_cdf"), abs=0.005 + 1e-9)
