@@ -138,7 +138,9 @@ def accelerate(laws, body, sensed, now, gains, memory, numbers):
     """Command the angular acceleration that the law says."""
     u, memory, margin = laws.law(sensed.R, sensed.omega, sensed.goal, gains, memory)
     squared = dot(u, u)
-    return Action(u, u, squared, margin, check_command(squared, numbers.command_limit_squared), ()), memory
+    return Action(
+        u, u, squared, margin, check_command(squared, numbers.command_limit_squared), ()
+    ), memory
 
 
 ACCELERATION = Controller(begin, accelerate)
@@ -195,7 +197,9 @@ def episodes_of(plant: Plant, controller: Controller, record: Record):
             start, row = starts[k], rows[k]
             state = reset(body, k, start)
             sensed = sense(body, state, 0, numbers)
-            watch = first_watch(sensed.haversine, start[11], sensed.watched_speed_squared, numbers.slow_squared)
+            watch = first_watch(
+                sensed.haversine, start[11], sensed.watched_speed_squared, numbers.slow_squared
+            )
             memory, action = begin(laws, memory0, sensed)
             tick, failure = 0, sensed.ended_by
             while tick < numbers.ticks and watch.quiet < numbers.hold_ticks and failure == GOING:
@@ -228,7 +232,9 @@ def episodes_of(plant: Plant, controller: Controller, record: Record):
                     account(row, body, state, sensed, action, tick, numbers)
             angle = measure(body, state, sensed)
             failure = attribute_crash(failure, action.raw)
-            finish(row, failure, watch, tick, angle, sensed.rest_speed_squared, action.squared, numbers)
+            finish(
+                row, failure, watch, tick, angle, sensed.rest_speed_squared, action.squared, numbers
+            )
             if close is not None:
                 close(row, body, state, k, numbers)
 

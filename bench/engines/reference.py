@@ -112,7 +112,9 @@ def run_contact(
         touch = type(conditions.touch)(*map(np.float64, conditions.touch))
         asked, push = np.zeros(3, np.int64), np.zeros(6)
         noise = conditions.sensor.draw_noise(task.horizon_s, conditions.dt_s)
-        world = contact.ContactWorld(sim, arm.joints, push, gap, turned, 0, 0, asked, work, shape, touch, record, noise)
+        world = contact.ContactWorld(
+            sim, arm.joints, push, gap, turned, 0, 0, asked, work, shape, touch, record, noise
+        )
         limits = contact_episode.limits(task, conditions)
         _run(contact.loop(), (controller.assemble,), world, None, np.zeros(12), limits, row)
     return row, said(), data

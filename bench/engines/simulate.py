@@ -96,7 +96,9 @@ def run(
     model = skip_constraints(model_of(plant.xml(settings.dt_s), integrator))
     data = mujoco.MjData(model)
     states = np.array([[*qpos, *qvel] for qpos, qvel in map(plant.state, starts)], dtype=float)
-    world = free_body.FreeBodyWorld(compiled_view(model, data), int(contender.regulator.in_engine), states)
+    world = free_body.FreeBodyWorld(
+        compiled_view(model, data), int(contender.regulator.in_engine), states
+    )
     law, rows = (evaluation(contender),), blank(len(starts), metrics)
     loop = compiled_loop(engine, tuple(metrics))
     return simulate(loop, law, world, memory_of(contender), begun, numbers(settings), rows, curves)

@@ -97,57 +97,47 @@ class Given(NamedTuple):
     counting: tuple
 
 
-class _Prepared(threading.local):
-    """All states with one tally, once a thread: to make counting scalars of them takes a quarter of the counting."""
-
-    def __init__(self) -> None:
-        self.tally = Tally()
-        self.given: list[Given] = []
-
-    def fill(self) -> list[Given]:
-        """Return what laws are called with at all states."""
-        if not self.given:
-            self.given = give(states(), self.tally)
-        return self.given
-
-
-_PREPARED = _Prepared()
-
-
 def give(over: Iterable[CountedState], tally: Tally) -> list[Given]:
     """Return what a law is called with at some states, its counting scalars on this tally."""
-    found = []
-    for state in over:
-        plain = (state.R, state.omega, state.goal, GAINS)
-        found.append(Given(state, plain, counted(plain, tally)))
-    return found
+    every = ((state, (state.R, state.omega, state.goal, GAINS)) for state in over)
+    return [Given(state, plain, counted(plain, tally)) for state, plain in every]
 
 
-def counted_calls(contender: Contender, over: Iterable[CountedState] | None = None) -> Iterator[CountedCall]:
+@functools.cache
+def _prepare(thread: int) -> tuple[Tally, list[Given]]:
+    """Return all states with one tally, once a thread: to make them for each law takes a quarter of the counting."""
+    tally = Tally()
+    return tally, give(states(), tally)
+
+
+def counted_calls(
+    contender: Contender, over: Iterable[CountedState] | None = None
+) -> Iterator[CountedCall]:
     """Yield all states counted, checked against the plain call; a law that raises costs what it computed until then."""
-    tally = _PREPARED.tally
-    every = _PREPARED.fill() if over is None else give(over, tally)
+    tally, every = _prepare(threading.get_ident())
     tally.take()  # of a law that was refused, something may be left
+    if over is not None:
+        every = give(over, tally)
     plain, counting = contender.law, law_of(contender, tally)
     first = contender.regulator.memory
     left: tuple = ()
     with np.errstate(all="ignore"):
         for given in every:
             if first is None:
-                yield _call(contender.name, plain, counting, tally, given, ())[0]
+                yield _call(contender, plain, counting, tally, given, ())[0]
                 continue
             initial = tuple(np.float64(x) for x in (*first, *NO_MEMORY[len(first) :]))
             for memory in (initial, *((left,) if left else ())):
-                call, after = _call(contender.name, plain, counting, tally, given, (memory,))
+                call, after = _call(contender, plain, counting, tally, given, (memory,))
                 yield call._replace(is_typical=False)
                 left = after or initial
-            call, after = _call(contender.name, plain, counting, tally, given, (left,))
+            call, after = _call(contender, plain, counting, tally, given, (left,))
             yield call
             left = after or initial
 
 
 def _call(
-    name: str,
+    contender: Contender,
     plain: Callable,
     counting: Callable,
     tally: Tally,
@@ -156,18 +146,19 @@ def _call(
 ) -> tuple[CountedCall, tuple]:
     """Return the call, and the memory the law left (empty for a law without, or if it raised)."""
     tally.stage = "regulate"
-    memory_counted = counted(memory, tally)
     call, want = checked(
-        name,
+        contender.name,
         given.state,
         tally,
         lambda: plain(*given.plain, *memory),
-        lambda: counting(*given.counting, *memory_counted),
+        lambda: counting(*given.counting, *counted(memory, tally)),
     )
     return call, want[1] if memory and want is not None else ()
 
 
-def checked(name: str, state: Any, tally: Tally, plain: Callable, counting: Callable) -> tuple[CountedCall, Any]:
+def checked(
+    name: str, state: Any, tally: Tally, plain: Callable, counting: Callable
+) -> tuple[CountedCall, Any]:
     """Return a counted call, whose answer must be the plain one bit for bit; and that answer, None if it raised."""
     want, answer, trouble = None, None, None
     try:

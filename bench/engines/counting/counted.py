@@ -86,17 +86,15 @@ def _dyadic(operation: str, compute: Callable) -> tuple[Callable, Callable]:
             value = float(other)
         else:
             return NotImplemented
-        tally = self.tally
-        tally.now[place] += 1
-        return Counted(compute(self.value, value), tally)
+        self.tally.now[place] += 1
+        return Counted(compute(self.value, value), self.tally)
 
     def reflected(self: "Counted", other: Any) -> Any:
         """Apply the operation where the first operand is a constant; for two counting scalars `forward` is called."""
         if not isinstance(other, CONSTANTS):
             return NotImplemented
-        tally = self.tally
-        tally.now[place] += 1
-        return Counted(compute(float(other), self.value), tally)
+        self.tally.now[place] += 1
+        return Counted(compute(float(other), self.value), self.tally)
 
     return forward, reflected
 

@@ -40,7 +40,9 @@ def rows_in_contact(controller: ContactController) -> Iterator[dict]:
     return rows_of(cost_in_contact(controller), {"controller": controller.name}, ("regulate", "invert"))
 
 
-def _call(controller: ContactController, held: Any, state: ArmState, draw: np.random.Generator) -> CountedCall:
+def _call(
+    controller: ContactController, held: Any, state: ArmState, draw: np.random.Generator
+) -> CountedCall:
     f, m, v_d, f_d, m_d = (tuple(three) for three in draw.normal(size=(5, 3)))
     setpoint = Setpoint(state.goal.R, state.p_d, v_d, f_d, m_d)
     given, tally = (state.chain, setpoint, f, m, GAINS, TOUCH, state.D, state.fg), Tally()

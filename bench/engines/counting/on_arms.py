@@ -142,7 +142,9 @@ def _controller(contender: Contender, parts: Parts, tally: Tally | None) -> Call
     return controller
 
 
-def _call(contender: Contender, plain: Callable, counting: Callable, tally: Tally, state: ArmState) -> CountedCall:
+def _call(
+    contender: Contender, plain: Callable, counting: Callable, tally: Tally, state: ArmState
+) -> CountedCall:
     memory = tuple(np.float64(x) for x in (*(contender.regulator.memory or ()), *NO_MEMORY)[: len(NO_MEMORY)])
     given = (state.chain, state.D, state.fg, state.goal, state.p_d, memory, GAINS)
     tally.stage = "linearize"

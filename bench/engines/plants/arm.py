@@ -129,7 +129,9 @@ def command(laws, body, sensed, now, gains, memory, numbers):
     if controls.is_cut > 0:
         arm_episode.cut(work.buffers.tau, body.joints.rated, n)
     if work.sent.shape[0] > 0:
-        arm_episode.drive(work.buffers.tau, work.sent, controls.share, controls.change, now.number, work.fg, n)
+        arm_episode.drive(
+            work.buffers.tau, work.sent, controls.share, controls.change, now.number, work.fg, n
+        )
     total, _ = arm_episode.load(work.buffers.tau, body.joints.rated, n)
     failure = check_command(total, controls.torque_limit_squared)
     return Action(u, u, dot(u, u), laws.third(sensed.R, sensed.goal.R), failure, ()), memory

@@ -130,7 +130,9 @@ def sense(body, state, tick, numbers):
     R, omega = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8])), (s[9], s[10], s[11])
     p, (f, m) = (s[16], s[17], s[18]), read_wrench(body, state, R)
     hand = HandReading(p, f, m, Chain(body.n, sim.xaxis, sim.xanchor, sim.qvel, p, R), state.p_0)
-    return Sensed(R, omega, Goal(state.R_d, AT_REST, AT_REST), 1.0, 0.0, speed, 0.0, state.ended_by, hand)
+    return Sensed(
+        R, omega, Goal(state.R_d, AT_REST, AT_REST), 1.0, 0.0, speed, 0.0, state.ended_by, hand
+    )
 
 
 @kernel
@@ -160,7 +162,9 @@ def command(laws, body, sensed_now, now, gains, memory, numbers):
     failure = check_command(total, numbers.command_limit_squared)
     if has_left(shape.rest, now.number, hand.p, sensed_now.R, memory.place, memory.frame):
         memory = RestWatch(hand.p, sensed_now.R, now.number)
-    elif failure == GOING and shape.rest.ticks > 0 and now.number - memory.since >= shape.rest.ticks:
+    elif (
+        failure == GOING and shape.rest.ticks > 0 and now.number - memory.since >= shape.rest.ticks
+    ):
         failure = RESTED
     return Action(AT_REST, AT_REST, largest, math.nan, failure, ()), memory
 

@@ -65,7 +65,9 @@ def command(laws, body, sensed, now, gains, memory, numbers):
         actuate(body.sim)
         u = rotate(sensed.R, (f[0], f[1], f[2]))
         squared = dot(u, u)
-        return Action(u, u, squared, math.nan, check_command(squared, numbers.command_limit_squared), ()), memory
+        return Action(
+            u, u, squared, math.nan, check_command(squared, numbers.command_limit_squared), ()
+        ), memory
     return accelerate(laws, body, sensed, now, gains, memory, numbers)
 
 

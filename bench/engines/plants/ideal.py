@@ -47,7 +47,9 @@ def measure(body, state, sensed):
 @kernel
 def by_whole_steps(laws, body, state, action, gains, memory, numbers):
     """Take one Runge-Kutta step a tick."""
-    R, omega = rk4_step(laws.law, state.R, state.omega, action.u, state.goal, gains, memory, numbers.dt)
+    R, omega = rk4_step(
+        laws.law, state.R, state.omega, action.u, state.goal, gains, memory, numbers.dt
+    )
     return IdealState(R, omega, state.goal, state.effort), memory
 
 
@@ -55,7 +57,9 @@ def by_whole_steps(laws, body, state, action, gains, memory, numbers):
 def by_refined_steps(laws, body, state, action, gains, memory, numbers):
     """Take steps as short as `refined` finds them necessary."""
     R, omega, goal, effort = state
-    R, omega, memory, effort = refined_step(laws.law, R, omega, action.u, goal, gains, memory, numbers, effort)
+    R, omega, memory, effort = refined_step(
+        laws.law, R, omega, action.u, goal, gains, memory, numbers, effort
+    )
     return IdealState(R, omega, goal, effort), memory
 
 

@@ -70,14 +70,18 @@ class ImpedanceWorld(NamedTuple):
     ends: Matrix
 
 
-def world(sim: Simulated, still: Simulated, states: np.ndarray, springs: Springs, rated) -> ImpedanceWorld:
+def world(
+    sim: Simulated, still: Simulated, states: np.ndarray, springs: Springs, rated
+) -> ImpedanceWorld:
     """Return the world of an arm under springs."""
     n = sim.n
     K = np.repeat((springs.translation, springs.rotation), 3)
     D, ends = np.zeros((MOST, MOST)), np.zeros((len(states), 2 * n))
     (v, e), (damp, elbow, added, before) = np.zeros((2, 6)), np.zeros((4, n))
     of_joints = {"damp": damp, "elbow": elbow, "added": added, "before": before, "rated": np.array(rated, dtype=float)}
-    return ImpedanceWorld(sim, states, still, arm.work(n), springs, D, K, v, e, ends=ends, **of_joints)
+    return ImpedanceWorld(
+        sim, states, still, arm.work(n), springs, D, K, v, e, ends=ends, **of_joints
+    )
 
 
 @kernel

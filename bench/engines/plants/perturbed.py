@@ -202,7 +202,9 @@ def command(laws, body, sensed, now, gains, memory, numbers):
         moment = moment_of(body, sensed, now, periods, numbers)
         R, omega = measured(condition, (sensed.R, sensed.omega), moment)
         rate, acceleration = fed_forward(condition, (goal.omega, goal.alpha), moment)
-        raw, law, margin = laws.law(R, minus(omega, rate), Goal(goal.R, AT_REST, AT_REST), gains, law)
+        raw, law, margin = laws.law(
+            R, minus(omega, rate), Goal(goal.R, AT_REST, AT_REST), gains, law
+        )
         u = raw
         if body.has_moving_goal:
             u = carried_along(u, omega, rate, acceleration)

@@ -46,7 +46,9 @@ class QuaternionState(NamedTuple):
 def reset(body, k, start):
     """Place the body at a start."""
     quat_d = (start[7], start[8], start[9], start[10])
-    return QuaternionState((start[0], start[1], start[2], start[3]), (start[4], start[5], start[6]), quat_d, 0.0)
+    return QuaternionState(
+        (start[0], start[1], start[2], start[3]), (start[4], start[5], start[6]), quat_d, 0.0
+    )
 
 
 @kernel
@@ -108,7 +110,9 @@ def hold_over_tick(laws, body, state, action, gains, memory, numbers):
     h = 0.5 * dt * dt
     turn = (dt * omega[0] + h * u[0], dt * omega[1] + h * u[1], dt * omega[2] + h * u[2])
     omega = (omega[0] + dt * u[0], omega[1] + dt * u[1], omega[2] + dt * u[2])
-    return QuaternionState(turned(state.quat, turn), omega, state.quat_d, sqrt(dot(turn, turn))), memory
+    return QuaternionState(
+        turned(state.quat, turn), omega, state.quat_d, sqrt(dot(turn, turn))
+    ), memory
 
 
 @kernel

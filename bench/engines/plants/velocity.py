@@ -131,7 +131,9 @@ def command_joints(laws, body, sensed, now, gains, memory, numbers):
     laws.third(buffers.J, buffers.a, body.work.D, buffers.x, 6, n, buffers.scratch)
     rate = squared(buffers.x, n)
     failure = check_command(rate, numbers.speed_limit_squared)
-    return Action(omega, u, dot(u, u), math.nan, failure, Unlimited(unlimited, rate, sqrt(off))), memory
+    return Action(
+        omega, u, dot(u, u), math.nan, failure, Unlimited(unlimited, rate, sqrt(off))
+    ), memory
 
 
 @kernel
@@ -144,7 +146,9 @@ def follow_with_joints(laws, body, state, action, gains, memory, numbers):
         sim.qpos[i] += angle_turned
         sim.qvel[i] = rate_after
     compute(sim)
-    return arm.ArmPlantState(state.quat_d, state.goal, state.p_d, angle(before, (s[12], s[13], s[14], s[15]))), memory
+    return arm.ArmPlantState(
+        state.quat_d, state.goal, state.p_d, angle(before, (s[12], s[13], s[14], s[15]))
+    ), memory
 
 
 @kernel

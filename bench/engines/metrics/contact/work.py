@@ -37,7 +37,9 @@ def work_residual(pose: Pose) -> float:
     return float(np.max(gaps) / largest) if largest > 0.0 else np.nan
 
 
-def sample_ports(coordinates: Coordinates, convert: Callable, from_goal: bool, response: ContactResponse) -> list[Port]:
+def sample_ports(
+    coordinates: Coordinates, convert: Callable, from_goal: bool, response: ContactResponse
+) -> list[Port]:
     """Return m [N m], omega [rad/s], F_E and Edot at each of TICKS ticks of an episode."""
     goal = from_quaternion(response.trial.goal_wxyz)
     ticks = np.linspace(0, len(response.time) - 1, TICKS).astype(int)

@@ -63,12 +63,8 @@ def force_overshoot(pose: Pose) -> float:
 
 def largest(pose: Pose, field: str) -> float:
     """Return the largest length of a field of the records over all ticks; NaN if nothing was recorded."""
-    greatest = np.nan
-    for one in pose.responses:
-        seen = getattr(one, field)
-        sizes = lengths(seen) if seen.ndim > 1 else seen
-        greatest = np.fmax.reduce(sizes, initial=greatest)
-    return float(greatest)
+    seen = np.concatenate([getattr(one, field) for one in pose.responses])
+    return float(np.fmax.reduce(lengths(seen) if seen.ndim > 1 else seen, initial=np.nan))
 
 
 peak_force, peak_moment = partial(largest, field="force"), partial(largest, field="moment")
@@ -82,12 +78,22 @@ METRICS = (
         "contact_settling_time_s", "s", "settling time of the force, from the first touch", contact_settling_time
     ),
     ContactMetric("normal_force_error_n", "N", "error of the force normal to the plane, rms", normal_force_error),
-    ContactMetric("force_error_peak_n", "N", "error of the force exerted, largest", force_error_peak),
+    ContactMetric(
+        "force_error_peak_n", "N", "error of the force exerted, largest", force_error_peak
+    ),
     ContactMetric("force_error_rms_n", "N", "error of the force exerted, rms", force_error_rms),
-    ContactMetric("force_error_end_n", "N", "error of the force exerted at the end, mean", force_error_end),
-    ContactMetric("moment_error_end_nm", "N m", "error of the moment exerted at the end, mean", moment_error_end),
-    ContactMetric("moment_error_peak_nm", "N m", "error of the moment exerted, largest", moment_error_peak),
-    ContactMetric("moment_error_rms_nm", "N m", "error of the moment exerted, rms", moment_error_rms),
+    ContactMetric(
+        "force_error_end_n", "N", "error of the force exerted at the end, mean", force_error_end
+    ),
+    ContactMetric(
+        "moment_error_end_nm", "N m", "error of the moment exerted at the end, mean", moment_error_end
+    ),
+    ContactMetric(
+        "moment_error_peak_nm", "N m", "error of the moment exerted, largest", moment_error_peak
+    ),
+    ContactMetric(
+        "moment_error_rms_nm", "N m", "error of the moment exerted, rms", moment_error_rms
+    ),
     ContactMetric("force_overshoot", "1", "largest force over the one ordered, less 1", force_overshoot),
     ContactMetric("peak_force_n", "N", "largest force on the hand", peak_force),
     ContactMetric("peak_moment_nm", "N m", "largest moment on the hand", peak_moment),
