@@ -56,8 +56,10 @@ def has_left(rule, tick, p, R, place, frame):
     x, y, z = p[0] - place[0], p[1] - place[1], p[2] - place[2]
     if tick < rule.first or x * x + y * y + z * z > rule.moved_squared:
         return True
-    turned = 0.0
-    for column, before in ((R.n, frame.n), (R.o, frame.o), (R.a, frame.a)):
-        x, y, z = column[0] - before[0], column[1] - before[1], column[2] - before[2]
-        turned = turned + (x * x + y * y + z * z)
-    return turned > rule.turned_squared
+    turned = _distance_squared(R.n, frame.n) + _distance_squared(R.o, frame.o)
+    return turned + _distance_squared(R.a, frame.a) > rule.turned_squared
+
+
+def _distance_squared(column, before):
+    x, y, z = column[0] - before[0], column[1] - before[1], column[2] - before[2]
+    return x * x + y * y + z * z

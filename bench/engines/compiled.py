@@ -13,7 +13,7 @@ from inspect import isfunction
 from typing import Any
 
 import numba
-from numba import _dynfunc, float64, int64, types
+from numba import _dynfunc, float64, types
 from numba.core import caching
 from numba.core.bytecode import FunctionIdentity
 from numba.core.codegen import JITCodeLibrary
@@ -22,17 +22,15 @@ from numba.extending import overload, register_jitable
 from numba.np import linalg
 
 from bench.base.errors import BadLaw
-from bench.engines.arrays import Four, Three
+from bench.engines import in_c
+from bench.engines.arrays import Four, Matrix
 from bench.engines.curve import Curves
 from bench.engines.episode import Numbers
 from bench.engines.kept_code import KeptCode, PlaceOfCode
+from bench.engines.signatures import Signature
 from bench.engines.typed import PART, type_of
 from bench.engines.uncompiled import explain_failure
 from bench.law import scalar
-from bench.law.chain import Chain, Scratch
-from bench.law.control.setpoint import ContactParameters, Rows, Setpoint
-from bench.law.inputs import Goal, Tuning
-from bench.law.so3 import Rotation
 from tasks import contact_rest, moving_goal, rules, truth, velocity, verdict
 
 
@@ -88,22 +86,16 @@ JIT = {"nogil": True, "error_model": "numpy"}
 """Never fastmath: results must be the plain Python call's, bit for bit."""
 
 VECTOR, MATRIX = float64[::1], float64[:, ::1]
-THREE, FOUR = type_of(Three), type_of(Four)
-NUMBERS, CURVES, ROTATION, GOAL, GAINS, CHAIN, SCRATCH = map(
-    type_of, (Numbers, Curves, Rotation, Goal, Tuning, Chain, Scratch)
-)
+FOUR, NUMBERS, CURVES = map(type_of, (Four, Numbers, Curves))
 
-EVALUATE = types.Tuple((THREE, FOUR, float64))(ROTATION, THREE, GOAL, GAINS, FOUR)
-"""evaluate(R, omega, goal, gains, memory) -> (u, memory, margin): a law as loops on the free body call it."""
 
-ASSEMBLE = types.Tuple((THREE, FOUR))(CHAIN, GOAL, THREE, GAINS, FOUR, MATRIX, VECTOR)
-RESOLVE = types.void(MATRIX, VECTOR, MATRIX, VECTOR, int64, int64, SCRATCH)
-MARGIN = float64(ROTATION, ROTATION)
-LIMIT = THREE(THREE, float64)
-DESIGN = types.void(VECTOR, MATRIX, float64, MATRIX, SCRATCH)
-STATEFUL, BEGIN_STATE = types.Tuple((THREE, FOUR))(ROTATION, THREE, GOAL, GAINS, FOUR), FOUR(ROTATION)
-TOUCH = types.void(CHAIN, *map(type_of, (Setpoint, Three, Three, Tuning, ContactParameters)), MATRIX, type_of(Rows))
-"""The other functions that loops call: see `plants`."""
+def numba_signature(signature: Any) -> Any:
+    """Return numba's signature of one of `signatures`; another is one already."""
+    if not isinstance(signature, Signature):
+        return signature
+    returns = types.void if signature.returns is None else type_of(signature.returns)
+    return returns(*map(type_of, signature.parameters))
+
 
 INLINED = (
     *(
@@ -154,8 +146,10 @@ def register(function: Callable) -> Callable:
 
 def compile_function(function: Callable, signature: Any, cache: bool = True, **options: Any) -> Callable:
     """Return the function compiled for one signature with our options and others; cached on disk if no user's law."""
+    if isinstance(signature, Signature) and in_c.compiler():
+        return in_c.CodeOfFunction(function, signature, cache)
     register_kernels()
-    return numba.njit(signature, cache=cache, **JIT, **options)(function)
+    return numba.njit(numba_signature(signature), cache=cache, **JIT, **options)(function)
 
 
 def compile_loop(episodes: Callable, laws: tuple, world: Any = None) -> Callable:
@@ -163,7 +157,9 @@ def compile_loop(episodes: Callable, laws: tuple, world: Any = None) -> Callable
 
     laws: signatures of the functions that it calls by pointer, three at most. world: a named tuple, annotated.
     """
-    functions = (*map(types.FunctionType, laws), *[types.none] * (3 - len(laws)))
+    if in_c.compiler():
+        return in_c.CodeOfLoop(episodes, laws, (world, Four, Matrix, Numbers, Matrix, Curves))
+    functions = (*(types.FunctionType(numba_signature(law)) for law in laws), *[types.none] * (3 - len(laws)))
     # a file of the cache for each world: one for all would import every world, and MuJoCo, with the first loop
     episodes.__qualname__ += f".{world.__module__}.{world.__name__}" if world else ".ideal"
     return compile_function(episodes, types.void(*functions, type_of(world), FOUR, MATRIX, NUMBERS, MATRIX, CURVES))
@@ -171,6 +167,7 @@ def compile_loop(episodes: Callable, laws: tuple, world: Any = None) -> Callable
 
 def compile_callback(function: Callable, signature: Any) -> Any:
     """Return the function as C code calls it, by its `address`; cached on disk."""
+    register_kernels()
     return numba.cfunc(signature, nopython=True, cache=True)(function)
 
 

@@ -17,6 +17,7 @@ from bench.engines.arrays import Matrix, Vector
 from bench.engines.native.libmujoco import mj_fullM as full_inertia
 from bench.engines.native.libmujoco import mj_fwdActuation, mj_resetData, mj_step, mj_step1, mj_step2
 from bench.engines.typed import PART
+from bench.translation.dialect import REPLACED
 
 
 class Simulated(NamedTuple):
@@ -85,46 +86,47 @@ def fill_inertia(body, D):
     mujoco.mj_fullM(body.model, data, D)
 
 
-def _compiled(function: Callable) -> Callable:
-    return overload(function, jit_options=PART | {"forceinline": True})
+def in_compiled_code(function: Callable) -> Callable:
+    """Mark the kernel that does in compiled code what a function does in Python."""
+
+    def mark(kernel: Callable) -> Callable:
+        REPLACED[function] = kernel
+        overload(function, jit_options=PART | {"forceinline": True}, strict=False)(lambda *kinds: kernel)
+        return kernel
+
+    return mark
 
 
-@_compiled(place)
+@in_compiled_code(place)
 def _place(body, states, k):
-    def placed(body, states, k):
-        nq, nv = body.qpos.shape[0], body.qvel.shape[0]
-        mj_resetData(body.model, body.data)
-        for i in range(nq):
-            body.qpos[i] = states[k, i]
-        for i in range(nv):
-            body.qvel[i] = states[k, nq + i]
-        mj_step1(body.model, body.data)
-
-    return placed
+    nq, nv = body.qpos.shape[0], body.qvel.shape[0]
+    mj_resetData(body.model, body.data)
+    for i in range(nq):
+        body.qpos[i] = states[k, i]
+    for i in range(nv):
+        body.qvel[i] = states[k, nq + i]
+    mj_step1(body.model, body.data)
 
 
-@_compiled(step)
+@in_compiled_code(step)
 def _step(body):
-    def stepped(body):
-        if body.is_runge_kutta:
-            mj_step(body.model, body.data)
-        else:
-            mj_step2(body.model, body.data)
-        mj_step1(body.model, body.data)
-
-    return stepped
+    if body.is_runge_kutta:
+        mj_step(body.model, body.data)
+    else:
+        mj_step2(body.model, body.data)
+    mj_step1(body.model, body.data)
 
 
-@_compiled(compute)
+@in_compiled_code(compute)
 def _compute(body):
-    return lambda body: mj_step1(body.model, body.data)
+    mj_step1(body.model, body.data)
 
 
-@_compiled(actuate)
+@in_compiled_code(actuate)
 def _actuate(body):
-    return lambda body: mj_fwdActuation(body.model, body.data)
+    mj_fwdActuation(body.model, body.data)
 
 
-@_compiled(fill_inertia)
+@in_compiled_code(fill_inertia)
 def _fill_inertia(body, D):
-    return lambda body, D: full_inertia(body.model, body.data, D.ctypes.data)
+    full_inertia(body.model, body.data, D.ctypes.data)

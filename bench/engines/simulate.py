@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from bench.engines import compiled, lanes
+from bench.engines import lanes, signatures
 from bench.engines.binding import evaluation_of, memory_of, observer, plant_of
 from bench.engines.compiled import compile_function, compile_loop, compile_once, own_law
 from bench.engines.convergence import Level, at_level, converged
@@ -27,20 +27,20 @@ WORTH_LANES = 100_000
 1,000 ticks."""
 
 LOOPS = {
-    "native": ("free_body", "loop_of", (compiled.EVALUATE,), "FreeBodyWorld"),
-    "perturbed": ("perturbed", "loop_of", (compiled.EVALUATE,), "PerturbedWorld"),
-    "stream": ("quaternion", "streamed", (compiled.EVALUATE,), "SentGoals"),
-    "state": ("quaternion", "with_state", (compiled.STATEFUL, compiled.BEGIN_STATE), "Disturbance"),
-    "velocity": ("velocity", "of_body", (compiled.EVALUATE, compiled.LIMIT), "Pace"),
+    "native": ("free_body", "loop_of", (signatures.EVALUATE,), "FreeBodyWorld"),
+    "perturbed": ("perturbed", "loop_of", (signatures.EVALUATE,), "PerturbedWorld"),
+    "stream": ("quaternion", "streamed", (signatures.EVALUATE,), "SentGoals"),
+    "state": ("quaternion", "with_state", (signatures.STATEFUL, signatures.BEGIN_STATE), "Disturbance"),
+    "velocity": ("velocity", "of_body", (signatures.EVALUATE, signatures.LIMIT), "Pace"),
     "velocity-arm": (
         "velocity",
         "of_arm",
-        (compiled.EVALUATE, compiled.LIMIT, compiled.RESOLVE),
+        (signatures.EVALUATE, signatures.LIMIT, signatures.RESOLVE),
         "VelocityWorld",
     ),
-    "arm": ("arm", "loop_of", (compiled.ASSEMBLE, compiled.RESOLVE, compiled.MARGIN), "ArmWorld"),
-    "impedance": ("impedance", "of_arm", (compiled.EVALUATE, compiled.DESIGN), "ImpedanceWorld"),
-    "contact": ("contact", "loop", (compiled.TOUCH,), "ContactWorld"),
+    "arm": ("arm", "loop_of", (signatures.ASSEMBLE, signatures.RESOLVE, signatures.MARGIN), "ArmWorld"),
+    "impedance": ("impedance", "of_arm", (signatures.EVALUATE, signatures.DESIGN), "ImpedanceWorld"),
+    "contact": ("contact", "loop", (signatures.TOUCH,), "ContactWorld"),
 }
 """Beside the ideal ones: the file in `plants`, what makes the loop (`loop_of` of the metrics), the signatures of the
 functions that it calls, and its world."""
@@ -50,7 +50,7 @@ functions that it calls, and its world."""
 def compiled_loop(kind: str, metrics: tuple = ()) -> Callable:
     """Return a loop, for all laws, compiled or taken from the disk cache."""
     if kind in ideal.STEPS:
-        return compile_loop(ideal.loop_of(kind, observer(metrics)), (compiled.EVALUATE,))
+        return compile_loop(ideal.loop_of(kind, observer(metrics)), (signatures.EVALUATE,))
     file, make, laws, world = LOOPS[kind]
     plant = importlib.import_module(f"bench.engines.plants.{file}")  # MuJoCo takes a moment; the ideal plants need none
     made = getattr(plant, make)(*[observer(metrics)] * (make == "loop_of"))
@@ -181,4 +181,4 @@ def loop_in_lanes(engine: str, contender: Contender, metrics: tuple) -> Callable
 def evaluation(contender: Contender) -> Callable:
     """Compile a contender for the loops, or take it from the disk cache; a user's law is compiled every time."""
     with own_law(contender.regulator.origin) as cache:
-        return compile_function(evaluation_of(contender), compiled.EVALUATE, cache)
+        return compile_function(evaluation_of(contender), signatures.EVALUATE, cache)

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.engines import compiled, reference
+from bench.engines import reference, signatures
 from bench.engines.arm_episode import blank_arm, controls, joints, states
 from bench.engines.binding import margin_of, memory_of, parts_for
 from bench.engines.compiled import compile_function, compile_once, own_law, part
@@ -81,19 +81,19 @@ def _model(task: str, arm: Arm, dt_s: float, integrator: str, variation: str) ->
 def pointers(contender: Contender) -> tuple:
     """Compile a contender's three functions, or take them from the disk cache; a user's law is compiled every time."""
     law = contender._replace(jacobian=None, inverse=None)
-    return _assemble(contender._replace(inverse=None)), _resolve(contender), part(margin_of(law), compiled.MARGIN)
+    return _assemble(contender._replace(inverse=None)), _resolve(contender), part(margin_of(law), signatures.MARGIN)
 
 
 def _resolve(contender: Contender) -> Callable:
     """Return the inverse of a contender that has one."""
     assert contender.inverse is not None
-    return part(contender.inverse.resolve, compiled.RESOLVE)
+    return part(contender.inverse.resolve, signatures.RESOLVE)
 
 
 @compile_once
 def _assemble(contender: Contender) -> Callable:
     with own_law(contender.regulator.origin) as cache:
-        return compile_function(assembly(parts_for(contender)), compiled.ASSEMBLE, cache)
+        return compile_function(assembly(parts_for(contender)), signatures.ASSEMBLE, cache)
 
 
 def run_velocity(
@@ -111,7 +111,7 @@ def run_velocity(
         blank(len(starts), more=(*[0.0] * 5, 0.0 if arm else math.nan)),
     )
     given = memory_of(law), start_rows(starts), numbers(settings), rows
-    functions = evaluation(law), part(limit, compiled.LIMIT)
+    functions = evaluation(law), part(limit, signatures.LIMIT)
     if not arm:
         return simulate(compiled_loop("velocity"), functions, pace, *given)
     n, (model, data) = tasks.arm(arm).joints, _simulation(ARM_TASK, tasks.arm(arm), settings.dt_s)
@@ -134,7 +134,7 @@ def run_impedance(
     owners = [_simulation(ARM_TASK, one, settings.dt_s, variation=variation) for _ in range(2)]
     plant, still = (compiled_view(*sim) for sim in owners)
     world = impedance.world(plant, still, states(starts, one.joints), springs, one.rated)
-    rows, laws = blank(len(starts), more=impedance.COLUMNS), (evaluation(law), part(damping.design, compiled.DESIGN))
+    rows, laws = blank(len(starts), more=impedance.COLUMNS), (evaluation(law), part(damping.design, signatures.DESIGN))
     simulate(compiled_loop("impedance"), laws, world, memory_of(law), start_rows(starts), limits, rows)
     del owners  # it kept the models and data alive whose addresses the compiled code read
     return rows, world.ends

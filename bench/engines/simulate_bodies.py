@@ -8,9 +8,10 @@ import numpy as np
 
 from bench.engines import episode
 from bench.engines.binding import memory_of
-from bench.engines.compiled import BEGIN_STATE, STATEFUL, compile_once, part
+from bench.engines.compiled import compile_once, part
 from bench.engines.episode import Metrics, Numbers, Settings, Starts, blank, numbers, start_rows
 from bench.engines.plants import perturbed, quaternion
+from bench.engines.signatures import BEGIN_STATE, STATEFUL
 from bench.engines.simulate import compiled_loop, evaluation, simulate
 from bench.law.contender import Contender
 from bench.law.inputs import NO_MEMORY, Gains

@@ -8,13 +8,14 @@ import numpy as np
 
 from bench.base.errors import BadNumber, UnknownWord
 from bench.engines import contact_episode, reference
-from bench.engines.compiled import TOUCH, compile_function, compile_once, register
+from bench.engines.compiled import compile_function, compile_once, register
 from bench.engines.contact_episode import BROKEN, TIME, USUAL, Conditions, EndedEpisode, made
 from bench.engines.episode import FAILURE_TICK, FIRST_METRIC, NEVER, OUTCOME, START_WIDTH
 from bench.engines.mujoco_view import compiled_view
 from bench.engines.native import trapped
 from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS, model_of, skip_constraints
 from bench.engines.plants import contact as in_contact
+from bench.engines.signatures import TOUCH
 from bench.engines.simulate import compiled_loop, simulate
 from bench.law.control.contact_controller import ContactController, check_constants
 from bench.law.inputs import NO_MEMORY

@@ -12,13 +12,14 @@ from collections.abc import Callable, Iterable, Iterator
 from bench.engines.ideal import angle_between, haversine, turned
 from bench.engines.rigid_body import step
 from bench.export.languages.js import COPYSIGN, write_function
-from bench.export.program import REAL, TRUTH, Kind, Tuple, numbers
-from bench.export.reading import Program, Typed
 from bench.export.subject import MATRIX, TUNING
 from bench.law.contender import Contender
 from bench.law.inputs import Goal
 from bench.law.shipped import shortened
 from bench.law.so3 import from_quaternion, turn_quaternion
+from bench.translation.inference import Typed
+from bench.translation.kinds import REAL, TRUTH, Kind, Tuple, numbers
+from bench.translation.program import Program
 from tasks.verdict import OUTCOMES, Watch, check_command, check_state, first_watch, verdict, watched
 
 THREE, FOUR = numbers(3), numbers(4)

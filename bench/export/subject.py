@@ -9,8 +9,6 @@ from typing import Any, NamedTuple
 
 from bench.base.errors import UnknownWord
 from bench.export.entries import Entry, of_impedance, of_law
-from bench.export.program import REAL, Kind, Tuple, numbers
-from bench.export.reading import Program
 from bench.export.sprung import of_compensator, of_representation, of_spring
 from bench.law.contender import Contender
 from bench.law.contenders import registry
@@ -19,6 +17,8 @@ from bench.law.control.registry import all_controllers
 from bench.law.inputs import NO_MEMORY, Gains, Tuning
 from bench.law.kinds import HasLaw, Law
 from bench.law.so3 import Rotation
+from bench.translation.kinds import REAL, Kind, Tuple, numbers
+from bench.translation.program import Program
 
 IMPEDANCE, COMPENSATOR, SPRING = "impedance-", "compensator-", "spring-"
 

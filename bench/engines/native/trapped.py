@@ -10,12 +10,13 @@ import threading
 import weakref
 
 import mujoco
-import numba
 from numba import carray, int32, int64, types
 
 from bench.engines.compiled import compile_callback
+from bench.engines.in_c import CodeOfCallback, compiler
+from bench.engines.mujoco_view import in_compiled_code
 from bench.engines.native.libmujoco import library, mj_forward, mj_step, mj_step1, mj_step2
-from bench.engines.typed import PART
+from bench.law.scalar import kernel
 
 BEGIN, STEP, RUNGE_KUTTA = 0, 1, 2
 
@@ -27,9 +28,8 @@ _mjb_apply = types.ExternalFunction(
 """Number of failed simulations of mjb_apply(batch, ids, nid, function, argument, save)."""
 
 
-def _advance(model, data, simulation, argument):
+def _advance(model, data, simulation, asked):
     """Run the request on a model and data: [model, data, BEGIN, STEP or RUNGE_KUTTA]."""
-    asked = carray(argument, (3,))
     m, d = asked[0], asked[1]
     if asked[2] == BEGIN:
         mj_forward(m, d)
@@ -40,7 +40,18 @@ def _advance(model, data, simulation, argument):
     mj_step1(m, d)
 
 
-_callback = compile_callback(_advance, types.void(types.intp, types.intp, int32, types.CPointer(int64)))
+_kernel_of_callback = kernel(_advance)
+
+
+def _advance_by_address(model, data, simulation, argument):
+    _kernel_of_callback(model, data, simulation, carray(argument, (3,)))
+
+
+_callback = (
+    CodeOfCallback(_advance)
+    if compiler()
+    else compile_callback(_advance_by_address, types.void(types.intp, types.intp, int32, types.CPointer(int64)))
+)
 
 CALLBACK = _callback.address
 
@@ -56,9 +67,9 @@ def advance_trapped(body):
     return 0
 
 
-@numba.extending.overload(advance_trapped, jit_options=PART | {"forceinline": True})
+@in_compiled_code(advance_trapped)
 def _advance_trapped(body):
-    return lambda body: _mjb_apply(body.batch, 0, 1, body.callback, body.asked.ctypes.data, 0)
+    return _mjb_apply(body.batch, 0, 1, body.callback, body.asked.ctypes.data, 0)
 
 
 class _Config(ctypes.Structure):

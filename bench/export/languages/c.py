@@ -4,15 +4,16 @@ import textwrap
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from bench.export.braces import Braces
 from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, UNFUSED, heading
 from bench.export.language import Language, write_arguments
-from bench.export.layout import INDENT, WIDTH, fill_template, wrapped
-from bench.export.program import INDEX, REAL, TRUTH, Kind, Tuple
-from bench.export.reading import Typed
+from bench.export.layout import fill_template
 from bench.export.subject import MATRIX, Subject, translated
 from bench.export.vectors import CLOSE, vectors
+from bench.translation.braces import Braces
+from bench.translation.inference import Typed
+from bench.translation.kinds import INTEGER, REAL, TRUTH, Kind, Tuple
+from bench.translation.layout import INDENT, WIDTH, wrapped
 
 WORDS = """
 auto break case char const continue default do double else enum extern float for goto if inline int long
@@ -48,7 +49,8 @@ class CFunctions:
 
     def kind(self, kind: Kind) -> str:
         """Return the type of a kind."""
-        return self.names[kind] if isinstance(kind, Tuple) else {REAL: "double", TRUTH: "int", INDEX: "int"}[kind]
+        plain = {REAL: "double", TRUTH: "int", INTEGER: "int"}
+        return self.names[kind] if isinstance(kind, Tuple) else plain[str(kind)]
 
     def item(self, kind: Tuple, place: int | str) -> str:
         """Return the name of an element, or of a field."""

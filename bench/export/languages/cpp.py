@@ -6,8 +6,9 @@ from bench.export.entries import Entry
 from bench.export.heading import RESET, UNFUSED, heading
 from bench.export.language import Language, write_arguments
 from bench.export.languages import c
-from bench.export.layout import INDENT, slashes, wrapped
+from bench.export.layout import slashes
 from bench.export.subject import Subject
+from bench.translation.layout import INDENT, wrapped
 
 ROWS = "Eigen::Matrix<double, 3, 3, Eigen::RowMajor>"
 DECLARED = {

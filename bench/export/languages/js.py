@@ -5,13 +5,14 @@ Tuples are arrays, those with names too; numbers are IEEE doubles, and no produc
 
 import json
 
-from bench.export.braces import Braces
 from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, heading
 from bench.export.language import Language, write_arguments
-from bench.export.layout import INDENT, fill_template, slashes
-from bench.export.reading import Typed
+from bench.export.layout import fill_template, slashes
 from bench.export.subject import Subject, translated
+from bench.translation.braces import Braces
+from bench.translation.inference import Typed
+from bench.translation.layout import INDENT
 
 WORDS = """
 arguments await break case catch class const continue debugger default delete do else enum eval export extends

@@ -8,11 +8,12 @@ from collections.abc import Iterator
 from bench.export.entries import Entry
 from bench.export.heading import RESET, WIDTH, heading
 from bench.export.language import Language, write_arguments
-from bench.export.layout import INDENT, fill_template, wrapped
-from bench.export.reading import Typed
+from bench.export.layout import fill_template
 from bench.export.short import short_files
 from bench.export.subject import Subject, translated
 from bench.law.scalar import PRIMITIVES
+from bench.translation.inference import Typed
+from bench.translation.layout import INDENT, wrapped
 
 NUMBERS = (
     "Numbers   matrices are three rows of three numbers, vectors three numbers: lists, tuples or NumPy arrays",

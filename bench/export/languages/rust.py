@@ -5,15 +5,16 @@ import textwrap
 import tomllib
 from collections.abc import Iterator
 
-from bench.export.braces import Braces, count_assignments
 from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, PROJECT, RESET, heading
 from bench.export.language import Language, write_arguments
-from bench.export.layout import INDENT, WIDTH, fill_template, slashes, wrapped
-from bench.export.program import INDEX, REAL, TRUTH, Kind, Tuple
-from bench.export.reading import Typed
+from bench.export.layout import fill_template, slashes
 from bench.export.subject import Subject, translated
 from bench.export.vectors import vectors
+from bench.translation.braces import Braces, count_assignments
+from bench.translation.inference import Typed
+from bench.translation.kinds import INTEGER, REAL, TRUTH, Kind, Tuple
+from bench.translation.layout import INDENT, WIDTH, wrapped
 
 WORDS = """
 abstract as async await become box break const continue crate do dyn else enum extern false final fn for gen if impl in
@@ -58,7 +59,7 @@ class RustFunctions:
     def kind(self, kind: Kind) -> str:
         """Return the type of a kind."""
         if not isinstance(kind, Tuple):
-            return {REAL: "Real", TRUTH: "bool", INDEX: "usize"}[kind]
+            return {REAL: "Real", TRUTH: "bool", INTEGER: "usize"}[str(kind)]
         if kind.is_numbers:
             return f"[Real; {len(kind.items)}]"
         return self.names.get(kind) or f"({', '.join(map(self.kind, kind.items))})"

@@ -87,7 +87,8 @@ def substitute(A, b, i, n):
 @kernel
 def determinant(A, b, n):
     """det A; A (n x n) and b, which may hold anything, are overwritten."""
-    product = eliminate(A, b, n) * A[0, 0]
+    sign = eliminate(A, b, n)
+    product = sign * A[0, 0]
     for i in range(1, n):
         product = product * A[i, i]
     return product

@@ -34,7 +34,8 @@ def kernels_in(representation):
         """Jdot_E qdot = (pddot, B^-1 (omegadot - Bdot Edot)), pddot and omegadot those of Jdot qdot."""
         bent = accelerate(at, Edot, still)
         # added, not spread with a star: compiled code has no (*a, *b) of tuples
-        return (bias[0], bias[1], bias[2]) + rates(at, (bias[3] - bent[0], bias[4] - bent[1], bias[5] - bent[2]))  # noqa: RUF005
+        turned = rates(at, (bias[3] - bent[0], bias[4] - bent[1], bias[5] - bent[2]))
+        return (bias[0], bias[1], bias[2]) + turned  # noqa: RUF005
 
     return fill, drift
 

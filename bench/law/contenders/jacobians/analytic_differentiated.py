@@ -49,7 +49,8 @@ def kernels_in(representation):
             bending(omegadot, omega, R.a, Rdot.a),
         )
         # added, not spread with a star: compiled code has no (*a, *b) of tuples
-        return (bias[0], bias[1], bias[2]) + differentiate_twice(R, Rdot, Rddot)  # noqa: RUF005
+        turned = differentiate_twice(R, Rdot, Rddot)
+        return (bias[0], bias[1], bias[2]) + turned  # noqa: RUF005
 
     return fill, drift
 

@@ -1,23 +1,23 @@
-"""Functions of the law dialect, read back from their source, and the kinds of their expressions.
+"""Functions of a dialect of Python, read back from their source.
 
 A law is a closure of plain functions (`bench.law.scalar` says what they may contain). A name in one of them is a local
 variable, a function of the dialect, a tuple type, a constant of a file or of the closure, or a function of a number.
-A kind is a number, a truth value, an index, or a tuple of kinds.
+The loops that run laws are written in a wider dialect: see `LOOPS`.
 """
 
 import ast
 import builtins
 import inspect
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 from bench.base.errors import BadLaw
 from bench.law.scalar import PRIMITIVES
 
-ARITHMETIC = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
-COMPARISONS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
-SIGNS = {ast.USub: "-", ast.UAdd: "+", ast.Not: "not"}
+ARITHMETIC: dict[type, str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
+COMPARISONS: dict[type, str] = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
+SIGNS: dict[type, str] = {ast.USub: "-", ast.UAdd: "+", ast.Not: "not"}
 CURES: dict[type, tuple[str, str]] = {
     ast.Pow: ("**", "write a power as a product, a root with sqrt, a constant outside the functions"),
     ast.FloorDiv: ("//", "divide with /, or write a whole number outside the functions"),
@@ -26,13 +26,52 @@ CURES: dict[type, tuple[str, str]] = {
 """Operators that Python has and a law has not: how each is written, and what to write in its place."""
 
 
+class Dialect(NamedTuple):
+    """What the functions of a dialect may contain.
+
+    Attributes:
+        operators: The text of each operator.
+        has_integers: Whether a whole number is one in the code, too; in a law every number is real.
+    """
+
+    operators: Mapping[type, str]
+    has_integers: bool
+
+
+LAWS = Dialect({**ARITHMETIC, **COMPARISONS, **SIGNS}, has_integers=False)
+"""What a law may contain, and every language of the export can say."""
+
+WHOLE: dict[type, str] = {ast.FloorDiv: "//", ast.Mod: "%", ast.BitAnd: "&", ast.BitOr: "|", ast.Pow: "**"}
+IDENTITY: dict[type, str] = {ast.Is: "is", ast.IsNot: "is not"}
+LOOPS = Dialect({**LAWS.operators, **WHOLE, **IDENTITY}, has_integers=True)
+"""What the loops, plants and judges may contain besides, for which only C is written.
+
+Whole numbers and counters, arrays, `while`, functions as arguments and in tuples, None as an argument, calls as
+statements, and names of modules. Of powers only the square; `is` compares with None alone. `try` writes its body only:
+nothing raises in code that is translated.
+"""
+
+
+REPLACED: dict[Callable, Callable] = {}
+"""Functions that do in Python what a kernel does in code, and the kernel."""
+
+
 class DialectFunction(NamedTuple):
-    """A function of the dialect: its tree, the value of each free name (as above), and its docstring's summary."""
+    """A function of a dialect.
+
+    Attributes:
+        name: Its name.
+        node: Its tree, without the docstring.
+        names: The value of each free name.
+        summary: The summary of its docstring.
+        defaults: The values of its last parameters where a call gives none.
+    """
 
     name: str
     node: ast.FunctionDef
     names: dict[str, Any]
     summary: str
+    defaults: tuple = ()
 
     @property
     def parameters(self) -> list[str]:
@@ -40,7 +79,7 @@ class DialectFunction(NamedTuple):
         return [one.arg for one in self.node.args.args]
 
 
-def read_function(function: Callable) -> DialectFunction:
+def read_function(function: Callable, dialect: Dialect = LAWS) -> DialectFunction:
     """Read a function; BadLaw if its text cannot be read, or a name or an operator in it cannot be translated."""
     try:
         text = textwrap.dedent(inspect.getsource(function))
@@ -51,17 +90,18 @@ def read_function(function: Callable) -> DialectFunction:
         raise BadLaw(f"{function.__qualname__}: a law is a function written with def, not {type(node).__name__}")
     if ast.get_docstring(node) is not None:
         node.body = node.body[1:]
-    refuse_operators(node)
+    refuse_operators(node, dialect)
     closure = inspect.getclosurevars(function)
     values = {**vars(builtins), **closure.globals, **closure.nonlocals}
-    names = {name: _resolved(function, name, values) for name in free_names(node)}
+    names = {name: _resolved(function, name, values, dialect) for name in free_names(node)}
     summary = (inspect.getdoc(function) or "").partition("\n\n")[0]
-    return DialectFunction(function.__name__, node, names, " ".join(summary.split()))
+    defaults = function.__defaults__ or ()
+    return DialectFunction(function.__name__, node, names, " ".join(summary.split()), defaults)
 
 
-def refuse_operators(function: ast.FunctionDef) -> None:
-    """Raise BadLaw for operators that the languages of the export do not all have."""
-    allowed = ARITHMETIC | COMPARISONS | SIGNS
+def refuse_operators(function: ast.FunctionDef, dialect: Dialect) -> None:
+    """Raise BadLaw for operators that the dialect lacks."""
+    allowed = dialect.operators
     for node in (one for statement in function.body for one in ast.walk(statement)):
         for used in map(type, getattr(node, "ops", [getattr(node, "op", None)])):
             if issubclass(used, ast.operator | ast.unaryop | ast.cmpop) and used not in allowed:
@@ -79,10 +119,12 @@ def free_names(node: ast.FunctionDef) -> list[str]:
     return sorted({one.id for one in names} - bound)
 
 
-def _resolved(function: Callable, name: str, values: dict[str, Any]) -> Any:
+def _resolved(function: Callable, name: str, values: dict[str, Any], dialect: Dialect) -> Any:
     if name not in values:
         raise BadLaw(f"{function.__qualname__}: '{name}' is not defined (a law uses its file's constants and kernels)")
     value = values[name]
+    if dialect is LOOPS:  # a value without a kind is refused where it is used
+        return value
     is_tuple_type = isinstance(value, type) and issubclass(value, tuple) and hasattr(value, "_fields")
     if value in PRIMITIVES or value is range or is_tuple_type or _is_constant(value) or inspect.isfunction(value):
         return value
@@ -96,34 +138,6 @@ def _is_constant(value: Any) -> bool:
     if isinstance(value, tuple):
         return all(map(_is_constant, value))
     return isinstance(value, int | float) and not isinstance(value, type)
-
-
-class Tuple(NamedTuple):
-    """The kind of a tuple: the kinds of its items and, for a NamedTuple, its name and the names of its fields."""
-
-    items: tuple
-    name: str = ""
-    fields: tuple[str, ...] = ()
-
-    @property
-    def is_numbers(self) -> bool:
-        """Tell whether it is a plain tuple of numbers."""
-        return not self.name and all(one == REAL for one in self.items)
-
-
-REAL, TRUTH, INDEX = "real", "truth", "index"
-Kind = str | Tuple
-
-
-def numbers(count: int) -> Tuple:
-    """Return the kind of a tuple of so many numbers."""
-    return Tuple((REAL,) * count)
-
-
-def arguments(node: ast.Call, names: tuple[str, ...] | list[str]) -> list[ast.expr]:
-    """Return the arguments of a call in the order of the parameters."""
-    named = {one.arg: one.value for one in node.keywords}
-    return [*node.args, *(named[name] for name in names[len(node.args) :] if name in named)]
 
 
 def place_of(node: ast.expr) -> int | None:
