@@ -22,7 +22,8 @@ ROOT = Path(__file__).resolve().parents[2]
 IS_CHECKOUT = (ROOT / "Makefile").is_file() and (ROOT / "pyproject.toml").is_file()
 WORKPLACE = ROOT if IS_CHECKOUT else Path.cwd()
 """Results and caches go here; installed packages stay as they are."""
-DECIDING = ("tasks", *(f"bench/{room}" for room in ("base", "law", "audit", "engines", "experiments", "running")))
+_ROOMS = ("base", "law", "audit", "translation", "engines", "experiments", "running")
+DECIDING = ("tasks", *(f"bench/{room}" for room in _ROOMS))
 """What numbers of a run depend on; everything else only reads results, or is measured and kept apart from them."""
 JUDGE = ("tasks/rules.py", "tasks/verdict.py", "tasks/truth.py", "tasks/cause.py")
 """What decides how a given motion is judged."""

@@ -147,9 +147,22 @@ def register(function: Callable) -> Callable:
 def compile_function(function: Callable, signature: Any, cache: bool = True, **options: Any) -> Callable:
     """Return the function compiled for one signature with our options and others; cached on disk if no user's law."""
     if isinstance(signature, Signature) and in_c.compiler():
-        return in_c.CodeOfFunction(function, signature, cache)
+        return in_c.compile_signature(function, signature, is_users=not cache)
     register_kernels()
     return numba.njit(numba_signature(signature), cache=cache, **JIT, **options)(function)
+
+
+def compile_on_demand(function: Callable, cached: bool = False) -> Callable:
+    """Return a function that is compiled for the values that it is called with."""
+    if in_c.compiler():
+        return in_c.CodeOnDemand(function, cached)
+    register_kernels()
+    return numba.njit(**JIT)(function)
+
+
+def bind(code: Callable, *values: Any) -> Callable[[], Any]:
+    """Return a function without arguments that calls compiled code with these values, which it takes apart once."""
+    return code.bind(*values) if isinstance(code, in_c.CodeOnDemand) else functools.partial(code, *values)
 
 
 def compile_loop(episodes: Callable, laws: tuple, world: Any = None) -> Callable:

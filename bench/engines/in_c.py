@@ -20,13 +20,13 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from bench.base.errors import BenchError
+from bench.base.errors import BadLaw, BenchError
 from bench.base.processes import RUNS_A_LAW
 from bench.engines import cache
 from bench.engines.signatures import Signature
 from bench.engines.typed import UNTYPED
 from bench.translation.c import CONNECT, CFile
-from bench.translation.kinds import INTEGER, NONE, REAL, TRUTH, Array, Kind, Pointer, Tuple, is_static
+from bench.translation.kinds import INTEGER, NONE, REAL, TRUTH, Array, Kind, Pointer, Tuple, is_static, kind_of
 
 OPTIONS = ("-std=c11", "-O2", "-ffp-contract=off", "-fPIC", "-shared", "-w")
 """Never -ffast-math, and no product is fused with a sum: results must be the plain Python call's, bit for bit."""
@@ -53,7 +53,7 @@ def _compiler_version() -> str:
     return f"{path} {path.stat().st_size} {path.stat().st_mtime_ns}"
 
 
-class Library:
+class LoadedCode:
     """A file of C, compiled and loaded."""
 
     def __init__(self, file: CFile, cached: bool) -> None:
@@ -189,21 +189,62 @@ def _unpack(value: Any, kind: Kind) -> Any:
 
 
 class CodeOfFunction:
-    """A function that loops call by its address, and Python as any other."""
+    """A function that loops call by its address, and Python as any other.
 
-    def __init__(self, function: Callable, signature: Signature, cached: bool) -> None:
-        self._pointer = pointer_to(signature)
-        file = CFile()
-        file.offer_by_pointer(SYMBOL, function, self._pointer)
-        self._library = Library(file, cached)
+    Attributes:
+        address: Where its code is.
+        pointer: The kind of a pointer to it.
+    """
+
+    def __init__(self, function: Callable, kinds: tuple[Kind, ...], cached: bool, needs_marks: bool = False) -> None:
+        file = CFile(needs_marks)
+        self.pointer = file.offer_by_pointer(SYMBOL, function, kinds)
+        self._library = LoadedCode(file, cached)
         self.address = self._library.address(SYMBOL)
 
     def __call__(self, *values: Any) -> Any:
         """Call the function."""
-        pairs = zip(values, self._pointer.parameters, strict=True)
+        return self.bind(*values)()
+
+    def bind(self, *values: Any) -> Callable[[], Any]:
+        """Return a function without arguments that calls this one with these values."""
+        pairs = zip(values, self.pointer.parameters, strict=True)
         leaves = [leaf for value, kind in pairs for leaf in _leaves(value, kind)]
-        make = ctypes.CFUNCTYPE(_ctype(self._pointer.returns), *(ctype for _, ctype in leaves))
-        return _unpack(make(self.address)(*(number for number, _ in leaves)), self._pointer.returns)
+        function = ctypes.CFUNCTYPE(_ctype(self.pointer.returns), *(ctype for _, ctype in leaves))(self.address)
+        numbers = [number for number, _ in leaves]
+        return lambda: _unpack(function(*numbers), self.pointer.returns)
+
+
+def compile_signature(function: Callable, signature: Signature, is_users: bool) -> CodeOfFunction:
+    """Return a function that loops call by pointer; a user's must be marked as a kernel, and is not kept.
+
+    Errors:
+        BadLaw: It is beyond the dialect, or returns another kind of value.
+    """
+    wanted = pointer_to(signature)
+    code = CodeOfFunction(function, wanted.parameters, cached=not is_users, needs_marks=is_users)
+    if code.pointer != wanted:
+        raise BadLaw(f"{function.__name__} returns {code.pointer.returns}; wanted: {wanted.returns}")
+    return code
+
+
+class CodeOnDemand:
+    """A function that is compiled when it is called first with values of some kinds, as Python takes them."""
+
+    def __init__(self, function: Callable, cached: bool) -> None:
+        self._function, self._cached = function, cached
+        self._codes: dict[tuple[Kind, ...], CodeOfFunction] = {}
+
+    def __call__(self, *values: Any) -> Any:
+        """Call the function."""
+        return self.bind(*values)()
+
+    def bind(self, *values: Any) -> Callable[[], Any]:
+        """Return a function without arguments that calls this one with these values."""
+        kinds = tuple(value.pointer if isinstance(value, CodeOfFunction) else kind_of(value) for value in values)
+        if kinds not in self._codes:
+            self._codes[kinds] = CodeOfFunction(self._function, kinds, self._cached)
+        return self._codes[kinds].bind(*values)
 
 
 class CodeOfCallback:
@@ -212,7 +253,7 @@ class CodeOfCallback:
     def __init__(self, function: Callable) -> None:
         file = CFile()
         file.offer_callback(SYMBOL, function, numbers=3, elements=3)
-        self._library = Library(file, cached=True)
+        self._library = LoadedCode(file, cached=True)
         self.address = self._library.address(SYMBOL)
 
 
@@ -224,7 +265,7 @@ class CodeOfLoop:
         kinds: tuple[Kind, ...] = (*map(pointer_to, signatures), *missing, *map(kind_of_hint, hints))
         file = CFile()
         self._given = file.offer(SYMBOL, episodes, kinds)
-        self._run = Library(file, cached=True)[SYMBOL]
+        self._run = LoadedCode(file, cached=True)[SYMBOL]
         self._run.restype = None
 
     def __call__(self, *values: Any) -> None:

@@ -6,12 +6,13 @@ a list or an object of the module that the law changes, and a global that it ass
 
 import re
 
+from bench.base.errors import BadLaw
+from bench.translation.dialect import STATE
+
 DIALECT = (
     "keep to the dialect of bench/law/scalar.py and mark functions with @kernel "
     "(bench run --engine reference runs a law that is not compiled)"
 )
-STATE = "a law keeps its state only in memory=..., which it takes as its last argument and returns beside its command"
-
 FUNCTION = re.compile(r"Untyped global name '(\w+)': Cannot determine Numba type of <class 'function'>")
 OBJECT = re.compile(
     r"Untyped global name '(?P<name>\w+)': Cannot (?:type|determine)"
@@ -23,6 +24,9 @@ FIXED_ARRAY = re.compile(r"setitem\(readonly array")
 
 def explain_failure(error: Exception) -> str:
     """Return why a law cannot be compiled and the cure, as "reason; cure"."""
+    if isinstance(error, BadLaw):  # of the translator, which names function and expression
+        has_cure = any(cure in str(error) for cure in (STATE, "put @kernel above"))
+        return str(error) if has_cure else f"{error}; {DIALECT}"
     reason = _deepest_reason(error)
     if plain := FUNCTION.search(reason):
         return f"'{plain[1]}' is a plain function of Python; put @kernel above def {plain[1]}"

@@ -9,10 +9,11 @@ import re
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
-from bench.translation.dialect import ARITHMETIC, COMPARISONS, SIGNS, WHOLE, place_of
+from bench.translation.dialect import ARITHMETIC, COMPARISONS, SIGNS, WHOLE
 from bench.translation.inference import Typed
 from bench.translation.kinds import INTEGER, REAL, Array, External, Kind, Known, Pointer, Tuple, is_static
 from bench.translation.layout import INDENT, wrapped
+from bench.translation.trees import count_assignments, names_in, place_of
 
 STRENGTH = {ast.Mult: 6, ast.Div: 6, ast.Add: 5, ast.Sub: 5}
 BITS = {ast.BitAnd: " & ", ast.BitOr: " | "}
@@ -388,23 +389,3 @@ class _Body:
         if self.language.loops:
             return self.language.loops.constant(value, kind)
         return repr(float(value)) if kind == REAL else str(value).lower()
-
-
-def count_assignments(name: str, statements: list[ast.stmt]) -> int:
-    """Return how often a variable is assigned on the path with most assignments; in a loop each counts twice."""
-    count = 0
-    for node in statements:
-        if isinstance(node, ast.If):
-            branches = (each for each in (node.body, node.orelse) if each and not isinstance(each[-1], ast.Return))
-            count += max((count_assignments(name, each) for each in branches), default=0)
-        elif isinstance(node, ast.For):
-            count += 2 * count_assignments(name, node.body)
-        else:
-            stored = (one for one in ast.walk(node) if isinstance(one, ast.Name) and isinstance(one.ctx, ast.Store))
-            count += sum(one.id == name for one in stored)
-    return count
-
-
-def names_in(node: ast.AST) -> set[str]:
-    """Return every name in a tree."""
-    return {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}

@@ -64,12 +64,11 @@ class CFile:
     """One file of C.
 
     Args:
-        inlined: What is before the head of each function: `static inline` leaves it to the compiler which it inlines.
+        needs_marks: Whether functions of files that are not ours must be marked as kernels, as in a user's law.
     """
 
-    def __init__(self, inlined: str = "static inline") -> None:
-        self.program = Program(LOOPS)
-        self.inlined = inlined
+    def __init__(self, needs_marks: bool = False) -> None:
+        self.program = Program(LOOPS, needs_marks)
         self._types: dict[Kind, str] = {}
         self._declarations: list[str] = []
         self.externals: list[str] = []
@@ -199,7 +198,7 @@ class CFile:
         there = {name: kind for name, kind in function.parameters.items() if not is_static(kind)}
         given = ", ".join(f"{self.type(kind)} {self._language.variable(name)}" for name, kind in there.items())
         returns = "void" if is_static(function.returns) else self.type(function.returns)
-        return f"{self.inlined} {returns} fn_{function.name}({given or 'void'})"
+        return f"static inline {returns} fn_{function.name}({given or 'void'})"
 
     def offer(self, symbol: str, function: Callable, kinds: tuple[Kind, ...]) -> Tuple:
         """Add a function that Python calls by its symbol, on the address of a structure of its arguments.
@@ -217,11 +216,10 @@ class CFile:
         self._found.append(write)
         return given
 
-    def offer_by_pointer(self, symbol: str, function: Callable, pointer: Pointer) -> None:
-        """Add a function that loops call by pointer; `symbol` is its address."""
-        typed = self.program.add(function, pointer.parameters)
-        if typed.returns != pointer.returns:
-            raise TypeError(f"{symbol} returns {typed.returns}, wanted: {pointer.returns}")
+    def offer_by_pointer(self, symbol: str, function: Callable, parameters: tuple[Kind, ...]) -> Pointer:
+        """Add a function that loops call by pointer, and return the kind of that; `symbol` is its address."""
+        typed = self.program.add(function, parameters)
+        pointer = Pointer(parameters, typed.returns)
 
         def write() -> Iterator[str]:
             there = [kind for kind in pointer.parameters if not is_static(kind)]
@@ -236,6 +234,7 @@ class CFile:
             yield f"{self.type(pointer.returns)} {symbol}({given}) {{ return {call}; }}"
 
         self._found.append(write)
+        return pointer
 
     def offer_callback(self, symbol: str, function: Callable, numbers: int, elements: int) -> None:
         """Add a function that a library calls back.

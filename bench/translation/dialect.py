@@ -13,7 +13,8 @@ from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 from bench.base.errors import BadLaw
-from bench.law.scalar import PRIMITIVES
+from bench.law.scalar import KERNELS, PRIMITIVES
+from bench.translation.trees import free_names
 
 ARITHMETIC: dict[type, str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 COMPARISONS: dict[type, str] = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
@@ -50,6 +51,20 @@ Whole numbers and counters, arrays, `while`, functions as arguments and in tuple
 statements, and names of modules. Of powers only the square; `is` compares with None alone. `try` writes its body only:
 nothing raises in code that is translated.
 """
+
+
+STATE = "a law keeps its state only in memory=..., which it takes as its last argument and returns beside its command"
+
+OURS = ("bench", "tasks")
+"""Packages whose functions need no mark: the loops and judges."""
+
+
+def require_mark(function: Callable) -> None:
+    """Raise BadLaw for a function of a user's file that is not marked as a kernel."""
+    is_ours = function.__module__.partition(".")[0] in OURS
+    if not is_ours and not any(kernel is function for kernel in KERNELS):
+        name = function.__name__
+        raise BadLaw(f"'{name}' is a plain function of Python; put @kernel above def {name}")
 
 
 REPLACED: dict[Callable, Callable] = {}
@@ -112,13 +127,6 @@ def refuse_operators(function: ast.FunctionDef, dialect: Dialect) -> None:
                 )
 
 
-def free_names(node: ast.FunctionDef) -> list[str]:
-    """Return the names that a function reads and does not bind, sorted."""
-    names = [one for statement in node.body for one in ast.walk(statement) if isinstance(one, ast.Name)]
-    bound = {one.arg for one in node.args.args} | {one.id for one in names if isinstance(one.ctx, ast.Store)}
-    return sorted({one.id for one in names} - bound)
-
-
 def _resolved(function: Callable, name: str, values: dict[str, Any], dialect: Dialect) -> Any:
     if name not in values:
         raise BadLaw(f"{function.__qualname__}: '{name}' is not defined (a law uses its file's constants and kernels)")
@@ -138,11 +146,3 @@ def _is_constant(value: Any) -> bool:
     if isinstance(value, tuple):
         return all(map(_is_constant, value))
     return isinstance(value, int | float) and not isinstance(value, type)
-
-
-def place_of(node: ast.expr) -> int | None:
-    """Return the whole number that an expression is; None if it is none."""
-    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
-        place = place_of(node.operand)
-        return None if place is None else -place
-    return node.value if isinstance(node, ast.Constant) and type(node.value) is int else None

@@ -37,7 +37,7 @@ class Array(NamedTuple):
     element: str
 
 
-class Function(NamedTuple):
+class StaticFunction(NamedTuple):
     """The kind of a function that is known when the code is written; it is translated for each list of kinds."""
 
     function: Any
@@ -64,7 +64,7 @@ class Known(NamedTuple):
 
 
 REAL, TRUTH, INTEGER, NONE = "real", "truth", "integer", "none"
-Kind = str | Tuple | Array | Function | Pointer | External | Known
+Kind = str | Tuple | Array | StaticFunction | Pointer | External | Known
 
 NUMERIC = (TRUTH, INTEGER, REAL)
 """Kinds of numbers, the narrowest first."""
@@ -74,7 +74,7 @@ def is_static(kind: Kind) -> bool:
     """Tell whether nothing of a value of this kind is there when the code runs."""
     if isinstance(kind, Tuple):
         return all(map(is_static, kind.items))
-    return kind == NONE or isinstance(kind, Function | External | Known)
+    return kind == NONE or isinstance(kind, StaticFunction | External | Known)
 
 
 def numbers(count: int) -> Tuple:
@@ -114,7 +114,7 @@ def kind_of(value: Any) -> Kind:
     if isinstance(value, np.ndarray):
         return _kind_of_array(value)
     if inspect.isfunction(value):
-        return Function(value)
+        return StaticFunction(value)
     if hasattr(value, "symbol"):
         return External(value.symbol, NONE if str(value.sig.return_type) == "none" else INTEGER)
     if isinstance(value, str | type | ModuleType) or inspect.isbuiltin(value):

@@ -4,7 +4,7 @@ import ast
 import functools
 from collections.abc import Callable
 
-from bench.translation.dialect import LAWS, Dialect, read_function
+from bench.translation.dialect import LAWS, Dialect, read_function, require_mark
 from bench.translation.inference import Typed
 from bench.translation.kinds import Kind, Tuple, kind_of, kind_of_constant
 
@@ -14,8 +14,9 @@ CALLS_OF_LIBM = {"sin", "cos", "acos", "atan2"}
 class Program:
     """Typed functions, callees first, each with a unique name, without those that return an argument as it is."""
 
-    def __init__(self, dialect: Dialect = LAWS) -> None:
+    def __init__(self, dialect: Dialect = LAWS, needs_marks: bool = False) -> None:
         self.dialect = dialect
+        self.needs_marks = needs_marks
         self.entries: dict[str, Typed] = {}
         self._roots: list[Typed] = []
         self._order: list[Typed] = []
@@ -33,6 +34,8 @@ class Program:
     def typed(self, function: Callable, kinds: tuple[Kind, ...]) -> Typed:
         """Return a function for these kinds of its arguments, which another one calls."""
         if (function, kinds) not in self._done:
+            if self.needs_marks:
+                require_mark(function)
             self._done[function, kinds] = typed = Typed(self, self.read(function), kinds)
             if typed.identity is None:
                 self._order.append(typed)

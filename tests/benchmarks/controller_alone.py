@@ -10,27 +10,19 @@ from typing import NamedTuple
 
 import mujoco
 import numpy as np
+from numba import types
 
 import tasks
 from bench.engines import simulate_arms
 from bench.engines.arrays import Vector
 from bench.engines.binding import memory_of
-from bench.engines.compiled import (
-    ASSEMBLE,
-    FOUR,
-    MATRIX,
-    RESOLVE,
-    compile_function,
-    float64,
-    int64,
-    types,
-)
+from bench.engines.compiled import bind, compile_on_demand
 from bench.engines.counting.states import BOUND_OVER_KP
 from bench.engines.mujoco_view import Simulated, compiled_view
 from bench.engines.native.libmujoco import library_function, mj_fullM, model_of
 from bench.engines.plants.arm import ArmWork
 from bench.engines.plants.arm import work as arm_work
-from bench.engines.typed import pass_by_reference, type_of
+from bench.engines.typed import pass_by_reference
 from bench.law.chain import Chain
 from bench.law.contender import Contender
 from bench.law.control.resolved_acceleration import control
@@ -87,11 +79,10 @@ def controller_alone(task: str, arm: str, contender: Contender, start: Start) ->
     kp, kv = PAPERS_GAINS.kp, PAPERS_GAINS.kv
     loop = compile_loop()
 
+    run = bind(loop, assemble, resolve, world, contender.rows, memory, about_start, kp, kv, SWEEPS)
+
     def call():
-        chain = loop(
-            assemble, resolve, world, contender.rows, memory, about_start, kp, kv, SWEEPS
-        )  # fmt: skip
-        return chain, world, data
+        return run(), world, data
 
     def shuffle(number: int) -> None:
         # As for a law alone: else the processor learns the branches.
@@ -172,15 +163,4 @@ def compile_loop():
                 chain = 0.0 * total
         return chain
 
-    signature = float64(
-        types.FunctionType(ASSEMBLE),
-        types.FunctionType(RESOLVE),
-        type_of(World),
-        int64,
-        FOUR,
-        MATRIX,
-        float64,
-        float64,
-        int64,
-    )
-    return compile_function(loop, signature)
+    return compile_on_demand(loop, cached=True)

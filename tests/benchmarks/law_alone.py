@@ -16,7 +16,7 @@ import numpy as np
 
 import tasks
 from bench.engines.binding import command_of, memory_of
-from bench.engines.compiled import MATRIX, compile_function, float64, int64
+from bench.engines.compiled import bind, compile_on_demand
 from bench.engines.counting.states import BOUND_OVER_KP
 from bench.law.contender import Contender
 from bench.law.inputs import AT_REST, Gains, Goal, Tuning
@@ -128,7 +128,7 @@ def compile_loop(command, memory0, cache=True):
                 chain = 0.0 * (u[0] + u[1] + u[2])
         return chain
 
-    return compile_function(loop, float64(MATRIX, float64, float64, int64), cache)
+    return compile_on_demand(loop, cache)
 
 
 def law_alone(contender: Contender) -> Subject:
@@ -138,9 +138,7 @@ def law_alone(contender: Contender) -> Subject:
     rows = shared_rows()
     gains = Gains()
 
-    def call() -> float:
-        return loop(rows, gains.kp, gains.kv, SWEEPS)
-
+    call = bind(loop, rows, gains.kp, gains.kv, SWEEPS)
     is_finite = call() == 0.0
     ticks = SWEEPS * len(rows) if is_finite else 0
     return Subject(LAW, call, ticks, contender, prepare=shuffle)

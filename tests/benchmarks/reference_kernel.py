@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from bench.engines.compiled import compile_function, float64, int64
+from bench.engines.compiled import compile_on_demand
 from bench.experiments.tables.statistics import order_interval
 from bench.law.scalar import sin, sqrt
 from benchmarks.subject import KERNEL, Subject
@@ -40,7 +40,7 @@ def chain(x, steps):
 @functools.cache
 def compiled():
     """Return the kernel compiled: compiled()(START, STEPS)."""
-    return compile_function(chain, float64(float64, int64))
+    return compile_on_demand(chain, cached=True)
 
 
 def run() -> float:

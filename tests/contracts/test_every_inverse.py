@@ -1,6 +1,5 @@
 """Contracts that every inverse in contenders/inverses keeps; a new file is under them. Oracle: numpy.linalg."""
 
-import numba
 import numpy as np
 import pytest
 from support.bits import same_bits
@@ -8,7 +7,7 @@ from support.buffers import as_counted, buffer, scratch
 from support.each import each
 from support.filling import FACTORED, SHAPES, A, accepted, anything, inertia, resolved, well_conditioned
 
-from bench.engines.compiled import JIT, register_kernels
+from bench.engines.compiled import compile_on_demand
 from bench.law.contenders.registry import contenders
 
 EVERY = contenders("inverses").values()
@@ -30,8 +29,7 @@ def test_it_accepts_some_shape_and_refusals_name_a_cure(inverse):
 
 
 def test_counted_and_compiled_answers_are_the_plain_ones_bit_for_bit_and_all_is_counted(inverse):
-    register_kernels()
-    compiled = numba.njit(**JIT)(inverse.resolve)
+    compiled = compile_on_demand(inverse.resolve)
     for rows, n in accepted(inverse):
         for word, J in anything(rows, n).items():
             plain, _ = resolved(inverse, J, A[:rows], inertia(n))

@@ -2,7 +2,6 @@
 
 import functools
 
-import numba
 import numpy as np
 import pytest
 from support.bits import EPS, same_bits
@@ -10,7 +9,7 @@ from support.buffers import poses, serial_arm
 from support.filling import AWAY, ON_COORDINATES, ON_OMEGA, PAIRS, ROUNDING, converted, filled, named, rows_of
 from support.states import rotations
 
-from bench.engines.compiled import JIT, register_kernels
+from bench.engines.compiled import compile_on_demand
 from bench.law.chain import bias_acceleration, twist
 from bench.law.contenders.registry import jacobian
 
@@ -51,9 +50,8 @@ def test_its_expression_of_a_motion_is_its_own_product_with_the_rates(pair, n):
 @functools.cache
 def compiled(pair) -> list:
     """Its kernels, for any number of joints."""
-    register_kernels()
     one, coordinates = pair
-    return [numba.njit(**JIT)(kernel) for kernel in one.kernels_in(coordinates)]
+    return [compile_on_demand(kernel) for kernel in one.kernels_in(coordinates)]
 
 
 @pytest.mark.parametrize("n", [6, 7])

@@ -5,7 +5,6 @@ import functools
 import itertools
 import math
 
-import numba
 import numpy as np
 import pytest
 from support.bits import different_rows, same_bits
@@ -17,7 +16,7 @@ from support.states import vector
 import tasks
 from bench.engines import contact_episode
 from bench.engines.arm_episode import ArmSample
-from bench.engines.compiled import JIT, register_kernels
+from bench.engines.compiled import compile_on_demand
 from bench.engines.contact_episode import WIDTH, EndedEpisode
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME
 from bench.engines.metrics.contact_metric import Pose, response
@@ -72,8 +71,7 @@ def arm_samples() -> list[ArmSample]:
 def test_metric_says_what_it_is_and_its_compiled_update_is_the_plain_one_bit_for_bit_on_an_arm(any_metric):
     assert any_metric.unit
     assert any_metric.title
-    register_kernels()
-    compiled = numba.njit(**JIT)(any_metric.update)
+    compiled = compile_on_demand(any_metric.update)
     with np.errstate(all="ignore"):
         plain, other = (
             list(itertools.accumulate(arm_samples(), update, initial=np.float64(any_metric.start)))

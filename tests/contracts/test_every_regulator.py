@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 import pytest
-from numba import types
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS, different_rows
 from support.buffers import numbers_of
@@ -16,7 +15,7 @@ from support.states import as_rotation, of_scipy, rotations, vector
 
 import tasks
 from bench.engines.binding import command_of, evaluation_of, margin_of, memory_of
-from bench.engines.compiled import EVALUATE, compile_function
+from bench.engines.compiled import compile_on_demand
 from bench.engines.counting import OPERATIONS, STAGES, TOTAL, Tally, cost, flops, rows
 from bench.engines.counting.costs import counted
 from bench.engines.counting.staged import STAGE_OF, law_of
@@ -60,7 +59,7 @@ def through(evaluate, R, omega, goal, gains, memory):
 @functools.cache
 def by_pointer():
     """Return a function that calls every law by its pointer, as the loops do."""
-    return compile_function(through, EVALUATE.return_type(types.FunctionType(EVALUATE), *EVALUATE.args), cache=False)
+    return compile_on_demand(through)
 
 
 @functools.cache

@@ -138,7 +138,7 @@ def test_law_beyond_the_compiler_is_refused_with_nothing_touched_and_runs_on_the
     )
     assert "cannot be compiled: " in line
     assert "bench run --engine reference" in line
-    assert "float(unicode_type)" in line  # what in the law, not which pass of the compiler
+    assert "[str(x) for x in omega]" in line  # what in the law, not which pass of the compiler
     out = tmp_path / "out"
     words = ("--regulator", "mine", "--starts", "paper", "--engine", "reference", "--horizon", "0.1")
     said = bench(capsys, "run", "--law", path, "--out", out, *words)

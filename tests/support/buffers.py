@@ -4,10 +4,9 @@ import functools
 from typing import NamedTuple
 
 import mujoco
-import numba
 import numpy as np
 
-from bench.engines.compiled import JIT, register_kernels
+from bench.engines.compiled import compile_on_demand
 from bench.engines.counting import Counted, Tally
 from bench.law.chain import Chain, Scratch
 from support.bits import same_bits
@@ -180,8 +179,7 @@ def numbers_of(answer) -> list:
 
 def different_calls(kernel, calls) -> list[tuple[int, str]]:
     """Return the calls for which the compiled or the counted kernel gives other bits than the plain one."""
-    register_kernels()
-    compiled, found = numba.njit(**JIT)(kernel), []
+    compiled, found = compile_on_demand(kernel), []
     with np.errstate(all="ignore"):
         for i, given in enumerate(calls):
             plain = numbers_of(kernel(*given))

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench.engines.compiled import EVALUATE, GAINS, MATRIX, compile_function, types
+from bench.engines.compiled import compile_on_demand
 from bench.engines.simulate import evaluation
 from bench.export.language import find_language
 from bench.export.subject import Subject, find_subject
@@ -92,7 +92,7 @@ def _ours():
             answers[k, 0], answers[k, 1], answers[k, 2] = u
             answers[k, 3], answers[k, 4], answers[k, 5], answers[k, 6] = kept
 
-    return compile_function(loop, types.void(types.FunctionType(EVALUATE), GAINS, MATRIX, MATRIX), cache=False)
+    return compile_on_demand(loop)
 
 
 def gains_of(subject: Subject) -> tuple[float, ...]:

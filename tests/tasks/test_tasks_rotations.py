@@ -4,12 +4,12 @@ import math
 from fractions import Fraction
 
 import mujoco
-import numba
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from support.states import rotation
 
+from bench.engines.compiled import compile_on_demand
 from tasks.base import IDENTITY, angle, haversine
 from tasks.rotations import about, columns, multiply, on_pole, short_of_180_degrees, to_body, zyx
 
@@ -131,6 +131,6 @@ def test_haversine_is_the_rational_value():
 
 def test_truth_compiles_unchanged():
     for function in (angle, haversine):
-        compiled = numba.njit(error_model="numpy")(function)
+        compiled = compile_on_demand(function)
         for quat, goal in zip(random_quats(100), random_quats(100, SEED + 1), strict=True):
             assert compiled(quat, goal) == function(quat, goal)

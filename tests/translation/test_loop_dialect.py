@@ -9,8 +9,9 @@ import pytest
 
 from bench.base.errors import BadLaw
 from bench.engines.arrays import Matrix, Three, Vector
-from bench.engines.in_c import CodeOfFunction
+from bench.engines.in_c import compile_signature
 from bench.engines.signatures import Signature
+from bench.law.scalar import kernel
 
 pytestmark = pytest.mark.skipif(not shutil.which("cc"), reason="no C compiler here")
 
@@ -32,16 +33,19 @@ class Asked(NamedTuple):
     count: int
 
 
+@kernel
 def floor_and_rest(a: int, b: int) -> tuple[int, int]:
     """Divide whole numbers."""
     return a // b, a % b
 
 
+@kernel
 def divide(a: int, b: int) -> float:
     """Divide whole numbers into a real one."""
     return a / b
 
 
+@kernel
 def count_down(a: int, b: int) -> int:
     """Count with `while`, `continue` and `break`."""
     steps = 0
@@ -55,6 +59,7 @@ def count_down(a: int, b: int) -> int:
     return steps
 
 
+@kernel
 def widen(a: int, b: int) -> float:
     """Hold a whole number at first, then a real one."""
     total = 0
@@ -63,6 +68,7 @@ def widen(a: int, b: int) -> float:
     return total + b
 
 
+@kernel
 def chain_bits(a: int, b: int) -> int:
     """Combine comparisons, `&`, `|`, `and`, `or`, `not` and a choice."""
     small = -2 <= a < 3
@@ -71,6 +77,7 @@ def chain_bits(a: int, b: int) -> int:
     return (4 if small else 0) + (2 if both else 0) + (1 if either and not both else 0)
 
 
+@kernel
 def swap(a: int, b: int) -> tuple[int, int]:
     """Assign several names at once, each from what they were before."""
     a, b = b, a + b
@@ -81,34 +88,39 @@ def swap(a: int, b: int) -> tuple[int, int]:
 @pytest.mark.parametrize("function", [floor_and_rest, divide, count_down, widen, chain_bits, swap])
 def test_whole_numbers_are_python_s(function):
     hints = function.__annotations__
-    code = CodeOfFunction(function, Signature((int, int), hints["return"]), cached=False)
+    code = compile_signature(function, Signature((int, int), hints["return"]), is_users=True)
     for a in INTEGERS:
         for b in (-4, -1, 1, 3):
             assert code(a, b) == function(a, b), (a, b)
 
 
+@kernel
 def least_and_most(x: float, y: float) -> tuple[float, float]:
     """Take min and max, of which Python gives the first where two do not compare."""
     return min(x, y), max(x, y)
 
 
+@kernel
 def square_and_sign(x: float, y: float) -> Three:
     """Take a square, an absolute value, and a sign."""
     return (x**2, abs(y), math.copysign(1.0, x))
 
 
+@kernel
 def pair_up(x: float, y: float) -> tuple[float, float, float, float]:
     """Build records, one with a default, and join tuples."""
     pair, other = Pair(x), Pair(second=x, first=y)
     return (pair.first, pair.second) + (other.first, other.second)  # noqa: RUF005
 
 
+@kernel
 def spread(x: float, y: float) -> tuple[float, float, float]:
     """Spread a tuple in another."""
     pair = (x, y)
     return (*pair, float("nan"))
 
 
+@kernel
 def guard(x: float, y: float) -> float:
     """Write the body of `try`."""
     try:
@@ -121,7 +133,7 @@ def guard(x: float, y: float) -> float:
 @pytest.mark.parametrize("function", [least_and_most, square_and_sign, pair_up, spread, guard])
 def test_real_numbers_are_python_s_to_the_bit(function):
     hints = function.__annotations__
-    code = CodeOfFunction(function, Signature((float, float), hints["return"]), cached=False)
+    code = compile_signature(function, Signature((float, float), hints["return"]), is_users=True)
     for x in REALS:
         for y in REALS:
             got, wanted = np.array(code(x, y)), np.array(function(x, y))
@@ -129,6 +141,7 @@ def test_real_numbers_are_python_s_to_the_bit(function):
             assert np.array_equal(np.signbit(got)[wanted == 0], np.signbit(wanted)[wanted == 0]), (x, y)
 
 
+@kernel
 def fill(A, b, asked):
     """Write elements, rows and parts of arrays."""
     rows, columns = A.shape[0], A.shape[1]
@@ -145,7 +158,7 @@ def fill(A, b, asked):
 
 
 def test_arrays_are_python_s():
-    code = CodeOfFunction(fill, Signature((Matrix, Vector, Asked), None), cached=False)
+    code = compile_signature(fill, Signature((Matrix, Vector, Asked), None), is_users=True)
     given, wanted = ((np.zeros((2, 3)), np.arange(4.0), Asked(np.zeros(2), 1)) for _ in range(2))
     code(*given)
     fill(*wanted)
@@ -155,7 +168,7 @@ def test_arrays_are_python_s():
 
 
 def test_an_array_of_another_kind_is_refused():
-    code = CodeOfFunction(fill, Signature((Matrix, Vector, Asked), None), cached=False)
+    code = compile_signature(fill, Signature((Matrix, Vector, Asked), None), is_users=True)
     with pytest.raises(TypeError, match="wanted: contiguous, float64, 2"):
         code(np.zeros((3, 2)).T, np.zeros(4), Asked(np.zeros(2), 1))
     with pytest.raises(TypeError, match="an array of int64"):
@@ -165,6 +178,7 @@ def test_an_array_of_another_kind_is_refused():
 def made_with(hook, limit):
     """Return a function that calls another one, or none, which is known when the code is written."""
 
+    @kernel
     def limited(x):
         y = hook(x) if hook is not None else x
         if limit is None:
@@ -179,31 +193,36 @@ def made_with(hook, limit):
 )
 def test_what_is_known_when_the_code_is_written_is_decided_then(hook, limit):
     function = made_with(hook, limit)
-    code = CodeOfFunction(function, Signature((float,), float), cached=False)
+    code = compile_signature(function, Signature((float,), float), is_users=True)
     assert [code(x) for x in (-3.0, 0.5, 9.0)] == [function(x) for x in (-3.0, 0.5, 9.0)]
 
 
+@kernel
 def take(b):
     """Write into an array."""
     b[0] = b[0] + 1.0
     return b[0]
 
 
+@kernel
 def read_beside(b):
     """Call what writes beside what reads."""
     return take(b) * b[0]
 
 
+@kernel
 def power(x):
     """Raise to another power than the square."""
     return x**3
 
 
+@kernel
 def build_list(x):
     """Build a list."""
     return [x, x][0]
 
 
+@kernel
 def change_kind(x):
     """Use one name for a number and a tuple."""
     y = x
@@ -211,6 +230,7 @@ def change_kind(x):
     return y[0]
 
 
+@kernel
 def look_up(x):
     """Read a name that is nowhere."""
     return x + nowhere  # noqa: F821
@@ -228,4 +248,4 @@ def look_up(x):
 )
 def test_what_c_would_do_otherwise_is_refused_by_function_and_expression(function, hint, words):
     with pytest.raises(BadLaw, match=words):
-        CodeOfFunction(function, Signature((hint,), float), cached=False)
+        compile_signature(function, Signature((hint,), float), is_users=True)
