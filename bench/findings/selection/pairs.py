@@ -47,11 +47,18 @@ def read_pairs(folder: Path) -> dict[str, pd.DataFrame]:
 @functools.cache
 def read_pair_columns(folder: Path) -> dict[str, dict[str, np.ndarray]]:
     """Return the same as columns."""
-    return {word: columns_of(rows) for word, rows in read_pairs(folder).items()}
+    return split(read_all_pairs(folder))
+
+
+def split(rows: pd.DataFrame) -> dict[str, dict[str, np.ndarray]]:
+    """Return the columns of the rows of each situation, by its word."""
+    columns = columns_of(rows)
+    places = rows.groupby("situation", sort=False, observed=True).indices
+    return {str(word): {name: values[own] for name, values in columns.items()} for word, own in places.items()}
 
 
 def columns_of(rows: pd.DataFrame) -> dict[str, np.ndarray]:
-    """Return the columns of a few rows as arrays: a look into a frame takes longer than to decide on forty laws."""
+    """Return columns as arrays: a look into a frame takes longer than to decide on forty laws."""
     return {str(name): np.asarray(rows[name]) for name in rows}
 
 

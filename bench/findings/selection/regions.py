@@ -27,7 +27,7 @@ from bench.experiments.tables.run import with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
 from bench.findings.selection.jump import jump
-from bench.findings.selection.pairs import columns_of, find_slower, read_pair_columns
+from bench.findings.selection.pairs import columns_of, find_slower, read_pair_columns, split
 from bench.law.contender import Contender
 from bench.law.contenders.registry import find_contender
 from tasks.situation import COORDINATES, Situation, read_situation
@@ -239,7 +239,7 @@ def group_map(folder: Path = STUDY) -> dict[Situation, pd.DataFrame]:
 
 @functools.cache
 def _group_columns(folder: Path) -> dict[Situation, dict[str, np.ndarray]]:
-    return {at: columns_of(rows) for at, rows in group_map(folder).items()}
+    return {read_situation(word): rows for word, rows in split(read_map(folder)).items()}
 
 
 @functools.cache
