@@ -5,6 +5,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+import support.one_thread  # noqa: F401  before what imports NumPy
 import z3  # noqa: F401  loaded after OSMesa, which MuJoCo's renderer loads for all, Z3 ends the process
 from support.command_line import TINY
 from support.forked import run_in_child

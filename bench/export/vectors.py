@@ -77,16 +77,17 @@ def vectors(subject: Subject) -> tuple[Vector, ...]:
 
 def make_vectors(subject: Subject) -> Iterator[Vector]:
     """Yield them one by one."""
+    close = 0.0 if translated(subject).is_algebraic else CLOSE
     for place, entry in enumerate(subject.entries):
         wanted = OTHERS if place else FIRST
         random = np.random.default_rng(SEED + place)
-        made = (_vector(subject, entry, one, random) for one in states(20 * wanted, SEED + place))
+        made = (_vector(subject, entry, one, random, close) for one in states(20 * wanted, SEED + place))
         finite = (one for one in made if np.isfinite([*one.result, *one.memory]).all())
         yield from (one for one, _ in zip(finite, range(wanted), strict=False))
 
 
 def _vector(
-    subject: Subject, entry: Entry, state: VectorState, random: np.random.Generator
+    subject: Subject, entry: Entry, state: VectorState, random: np.random.Generator, close: float
 ) -> Vector:
     arguments = {one.name: _argument(subject, one, state, random) for one in entry.parameters}
     with np.errstate(all="ignore"):
@@ -94,7 +95,7 @@ def _vector(
     result, memory = answer if entry.has_memory else (answer, ())
     numbers = np.transpose(result) if entry.returns.kind == "matrix" else np.array(result)
     flat = numbers.astype(float).ravel().tolist()
-    tolerance = 0.0 if translated(subject).is_algebraic else CLOSE * max(map(abs, flat))
+    tolerance = close * max(map(abs, flat)) if close else 0.0
     return Vector(entry.name, state.kind, arguments, flat, list(map(float, memory)), tolerance)
 
 

@@ -1,5 +1,6 @@
 """The table of laws and starts says what other pages say, and what the tables hold."""
 
+import functools
 import re
 
 from support.pages import RUN
@@ -11,11 +12,14 @@ from report.figures.kit.page import REPORT
 from report.figures.method import counts
 from report.figures.robustness import half_turn_noise, robustness
 
-ROWS = {count.name: count for count in counts.list_counts(RUN)}
+
+@functools.cache
+def list_rows():
+    return {count.name: count for count in counts.list_counts(RUN)}
 
 
 def find_row(words):
-    return ROWS[words]
+    return list_rows()[words]
 
 
 def test_counts_are_those_of_the_pages():

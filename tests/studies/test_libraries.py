@@ -13,7 +13,7 @@ from bench.experiments.tables.store import read
 from bench.findings.libraries import SINGLE_RAD, STUDY
 from bench.studies.libraries import turns
 from bench.studies.libraries.__main__ import rows
-from bench.studies.libraries.asked import find, version_of
+from bench.studies.libraries.asked import ASKED, find, version_of
 from bench.studies.libraries.judge import COUNT_RAD, FORMS, KINDS, judge
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
 from report.figures.libraries import libraries
@@ -135,9 +135,13 @@ def test_negative_quaternion_is_compared_with_the_positive():
         assert judged(call, turn_set, QUATERNION, "sine-of-half")["other_sheet"] == others
 
 
-@pytest.mark.parametrize("library", [one for one in find().libraries if not one.is_restated])
-def test_committed_answers_are_what_the_library_says_here(library):
-    """One version fails on the same numbers of rotations in three sets, in the same way."""
+@pytest.mark.parametrize("name", sorted(ASKED.keys() - {"shipped"}))
+def test_committed_answers_are_what_the_library_says_here(name):
+    """One version fails on the same numbers of rotations in three sets, in the same way; restated code has none."""
+    found = find(name)
+    if found.missing:
+        pytest.skip(found.missing[name])
+    [library] = found.libraries
     table = read(STUDY, "libraries")
     table = table[table["library"] == library.name].set_index(["function", "turn_set"])
     assert set(table.index.get_level_values("function")) == {one.name for one in library.functions}

@@ -89,6 +89,7 @@ def simplicity(law):
     return len(find_contender(law).regulator.memory or ()), sum(operations(law))
 
 
+@functools.cache
 def is_ours(law):
     """Return whether a law was made here."""
     return find_contender(law).regulator.is_ours()

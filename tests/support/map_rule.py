@@ -16,6 +16,7 @@ NOTABLE = SPOKEN = 0.05
 OVERSHOOT = 5.0
 
 
+@functools.cache
 def map_rows(folder="situations"):
     """Return the rows of a map with the word of their situation, and whether the law has what is required."""
     rows = table("situations", folder)
@@ -30,29 +31,29 @@ def map_rows(folder="situations"):
 @functools.cache
 def slower_pairs(notable, folder="situations"):
     """Return the set of (word, slower law, faster law) that differ by more than a share, and not by chance."""
-    pairs, found = table("pairs", folder).astype({"log_ratio": float, "low": float, "high": float}), set()
-    for row in pairs.itertuples():
-        if row.log_ratio > -math.log(1.0 - notable) and row.low > 0.0:
-            found.add((row.situation, row.law, row.other))
-        if row.log_ratio < math.log(1.0 - notable) and row.high < 0.0:
-            found.add((row.situation, row.other, row.law))
-    return found
+    pairs = table("pairs", folder)
+    ratio, low, high = (pairs[name].to_numpy(float) for name in ("log_ratio", "low", "high"))
+    longer, shorter = -math.log(1.0 - notable), math.log(1.0 - notable)
+    own = pairs.loc[(ratio > longer) & (low > 0.0), ["situation", "law", "other"]]
+    other = pairs.loc[(ratio < shorter) & (high < 0.0), ["situation", "other", "law"]]
+    return {row for some in (own, other) for row in map(tuple, some.to_numpy(object))}
 
 
 @functools.cache
 def map_verdicts(folder="situations"):
     """Return situation -> (advised law, unbeaten published laws, unbeaten ones of ours, those that beat the first)."""
-    slower, found = slower_pairs(NOTABLE, folder), {}
-    for (word, *at), own in map_rows(folder).groupby(["word", *COORDINATES]):
-        asked = own[own["qualified"]].set_index("law")
-        ours = [law for law in asked.index if is_ours(law)]
-        beats = {law: {other for other in asked.index if (word, other, law) in slower} for law in asked.index}
-        published = [law for law in asked.index if law not in ours]
+    slower, found, rows = slower_pairs(NOTABLE, folder), {}, map_rows(folder)
+    memories = {law: len(find_contender(law).regulator.memory or ()) for law in rows["law"].unique()}
+    published_laws = {law for law in memories if not is_ours(law)}
+    places = rows.groupby(["word", *COORDINATES]).indices
+    laws, qualified, operations = (rows[name].to_numpy() for name in ("law", "qualified", "operations"))
+    for (word, *at), own in places.items():
+        asked = {laws[row]: operations[row] for row in own if qualified[row]}
+        beats = {law: {other for other in asked if (word, other, law) in slower} for law in asked}
+        published = [law for law in asked if law in published_laws]
+        ours = [law for law in asked if law not in published_laws]
         beaten = {law for one in published for law in beats[one]}
-        kept = sorted(
-            set(published) - beaten,
-            key=lambda law: (len(find_contender(law).regulator.memory or ()), asked["operations"][law], law),
-        )
+        kept = sorted(set(published) - beaten, key=lambda law: (memories[law], asked[law], law))
         law = kept[0] if kept else None
         free = tuple(one for one in ours if one not in beaten) if law else tuple(ours)
         found[tuple(at)] = law, frozenset(kept), free, tuple(one for one in ours if law in beats[one])
@@ -82,17 +83,23 @@ def widest():
 @functools.cache
 def shares_of(law, notable):
     """Return counts of drawn situations: unbeaten among the qualified, among all, failing, losing, and how many."""
-    rows = map_rows()
-    rows = rows[[is_of_draw(at) for at in rows[[*COORDINATES]].itertuples(index=False, name=None)]]
-    slower = slower_pairs(notable)
-    counts = collections.Counter()
-    for word, own in rows.groupby("word"):
-        own = own.set_index("law")
-        faster = [other for other in own.index if not is_ours(other) and (word, law, other) in slower]
-        meets = own["qualified"][law]
-        counts["qualified"] += meets and not any(own["qualified"][other] for other in faster)
+    slower, counts = slower_pairs(notable), collections.Counter()
+    for word, own in drawn_rows().items():
+        faster = [other for other in own if not is_ours(other) and (word, law, other) in slower]
+        meets, lost = own[law]
+        counts["qualified"] += meets and not any(own[other][0] for other in faster)
         counts["all"] += meets and not faster
         counts["failing"] += not meets
-        counts["losing"] += own["lost"][law] > 0
+        counts["losing"] += lost > 0
         counts["of"] += 1
     return dict(counts)
+
+
+@functools.cache
+def drawn_rows():
+    """Return word of a drawn situation -> law -> (whether it has what is required, share of starts that it loses)."""
+    rows, found = map_rows(), collections.defaultdict(dict)
+    rows = rows[[is_of_draw(at) for at in rows[[*COORDINATES]].itertuples(index=False, name=None)]]
+    for word, law, qualified, lost in rows[["word", "law", "qualified", "lost"]].to_numpy(object):
+        found[word][law] = qualified, lost
+    return dict(found)

@@ -1,5 +1,6 @@
 """Tables that a test has written or changed, claims judged on them, and the edits of planted_claims.toml."""
 
+import functools
 import math
 from pathlib import Path
 
@@ -38,7 +39,12 @@ def changed(frame: pd.DataFrame, rows, **cells) -> pd.DataFrame:
 
 
 def table(name, folder="reference"):
-    """Return a table of results with plain words and `law`."""
+    """Return a table of results with plain words and `law`; read once, and what is changed is the caller's alone."""
+    return _read(name, folder).copy(deep=False)
+
+
+@functools.cache
+def _read(name, folder):
     found = pd.read_parquet(RESULTS / folder / f"{name}.parquet")
     found = found.astype(dict.fromkeys(found.select_dtypes("category").columns, str))
     if "regulator" in found:

@@ -7,7 +7,7 @@ apart that their common starts do.
 
 import functools
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +42,24 @@ def read_all_pairs(folder: Path) -> pd.DataFrame:
 def read_pairs(folder: Path) -> dict[str, pd.DataFrame]:
     """Return the rows of a map's pairs.parquet by the word of their situation."""
     return {str(word): rows for word, rows in read_all_pairs(folder).groupby("situation")}
+
+
+@functools.cache
+def read_pair_columns(folder: Path) -> dict[str, dict[str, np.ndarray]]:
+    """Return the same as columns."""
+    return split(read_all_pairs(folder))
+
+
+def split(rows: pd.DataFrame) -> dict[str, dict[str, np.ndarray]]:
+    """Return the columns of the rows of each situation, by its word."""
+    columns = columns_of(rows)
+    places = rows.groupby("situation", sort=False, observed=True).indices
+    return {str(word): {name: values[own] for name, values in columns.items()} for word, own in places.items()}
+
+
+def columns_of(rows: pd.DataFrame) -> dict[str, np.ndarray]:
+    """Return columns as arrays: a look into a frame takes longer than to decide on forty laws."""
+    return {str(name): np.asarray(rows[name]) for name in rows}
 
 
 @functools.cache
@@ -129,15 +147,17 @@ def compare_values(
     return found
 
 
-def find_slower(pairs: pd.DataFrame, laws: Sequence[str], tie: float) -> np.ndarray:
+def find_slower(pairs: Mapping[Any, Any], laws: Sequence[str], tie: float) -> np.ndarray:
     """Return whether the 99 % time of law i is notably longer than that of law j, shape (n, n).
 
     Notably: law j needs less than 1 - `tie` of the time of law i, and the paired 95 % interval of the ratio excludes 1.
     """
     place = {law: number for number, law in enumerate(laws)}
-    both = pairs[pairs["law"].isin(place) & pairs["other"].isin(place)]
-    first, second = (both[column].map(place).to_numpy(dtype=int) for column in ("law", "other"))
-    ratio, low, high = (both[column].to_numpy(dtype=float) for column in ("log_ratio", "low", "high"))
+    sides = [np.asarray(pairs[column], dtype=object) for column in ("law", "other")]
+    first, second = (np.array([place.get(law, -1) for law in side], dtype=int) for side in sides)
+    both = (first >= 0) & (second >= 0)
+    first, second = first[both], second[both]
+    ratio, low, high = (np.asarray(pairs[column], dtype=float)[both] for column in ("log_ratio", "low", "high"))
     notable = -np.log1p(-tie)
     is_slower = np.zeros((len(place), len(place)), dtype=bool)
     is_slower[first, second] = (ratio > notable) & (low > 0.0)

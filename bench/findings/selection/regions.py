@@ -16,9 +16,9 @@ The rule was committed before the map was run; `robots` applies it to robots tha
 import collections
 import functools
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -27,7 +27,7 @@ from bench.experiments.tables.run import with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
 from bench.findings.selection.jump import jump
-from bench.findings.selection.pairs import find_slower, read_pairs
+from bench.findings.selection.pairs import columns_of, find_slower, read_pair_columns, split
 from bench.law.contender import Contender
 from bench.law.contenders.registry import find_contender
 from tasks.situation import COORDINATES, Situation, read_situation
@@ -125,11 +125,11 @@ def facts_of(law: str) -> Facts:
     return find_facts(find_contender(law))
 
 
-def list_facts(rows: pd.DataFrame) -> list[Facts]:
+def list_facts(rows: Mapping[Any, Any]) -> list[Facts]:
     """Return the facts of the law of each row."""
     if FACTS in rows:
-        return rows[FACTS].tolist()
-    return [facts_of(law) for law in rows["contender"].astype(str)]
+        return list(rows[FACTS])
+    return [facts_of(law) for law in np.asarray(rows["contender"], dtype=object)]
 
 
 @functools.cache
@@ -149,27 +149,32 @@ def decide(rows: pd.DataFrame, rule: Rule = RULE, pairs: pd.DataFrame | None = N
 
     Without pairs the two intervals must not overlap instead, which leaves more ties.
     """
+    return _decide(columns_of(rows), rule, pairs)
+
+
+def _decide(rows: dict[str, np.ndarray], rule: Rule, pairs: Mapping[Any, Any] | None) -> RuleVerdict:
+    """Do so on columns: the rules of `sensitivity` ask for ten thousand verdicts."""
     has = meets(rows, rule)
-    qualified = rows[has]
-    laws = qualified["contender"].astype(str).tolist()
+    qualified = {name: values[has] for name, values in rows.items()}
+    laws = [str(law) for law in qualified["contender"]]
     facts = list_facts(qualified)
     is_ours = np.array([fact.is_ours for fact in facts], dtype=bool)
     if is_ours.all():  # or none is left
         return RuleVerdict(None, ours=tuple(laws))
     beaten = find_beaten(qualified, rule, pairs)
     is_beaten = np.any(beaten[:, ~is_ours], axis=1)
-    order = ["peak"] if rule.least_peak else []
-    memory = [fact.memory for fact in facts]
-    unbeaten = qualified.assign(memory=memory)[~is_ours & ~is_beaten]
-    law, *tied = unbeaten.sort_values([*order, "memory", "operations", "contender"])["contender"].astype(str)
-    beats_advised = beaten[laws.index(law)]
     names = np.array(laws)
+    memory = np.array([fact.memory for fact in facts])
+    order = [names, qualified["operations"], memory, *([qualified["peak"]] if rule.least_peak else [])]
+    unbeaten = np.flatnonzero(~is_ours & ~is_beaten)
+    law, *tied = names[unbeaten[np.lexsort([one[unbeaten] for one in order])]].tolist()
+    beats_advised = beaten[laws.index(law)]
     ours = names[is_ours & ~is_beaten].tolist()
     faster = names[is_ours & beats_advised].tolist()
     return RuleVerdict(law, tuple(tied), tuple(ours), tuple(faster), len(laws))
 
 
-def meets(rows: pd.DataFrame, rule: Rule = RULE) -> np.ndarray:
+def meets(rows: Mapping[Any, Any], rule: Rule = RULE) -> np.ndarray:
     """Return whether the law of each row meets the requirements of a rule in the situation of the row."""
     has = meets_but_overshoot(rows, rule)
     if math.isinf(rule.overshoot):  # it need not have been measured
@@ -177,30 +182,32 @@ def meets(rows: pd.DataFrame, rule: Rule = RULE) -> np.ndarray:
     return has & ~find_overshooting(rows, has, rule.overshoot)
 
 
-def find_overshooting(rows: pd.DataFrame, has: np.ndarray, more: float) -> np.ndarray:
+def find_overshooting(rows: Mapping[Any, Any], has: np.ndarray, more: float) -> np.ndarray:
     """Return which laws overshoot by over `more` degrees more than the least of the published laws that have the rest.
 
     Nothing overshoots where no published law has the rest: there is nothing to compare with.
     """
-    is_ours = np.array([fact.is_ours for fact in list_facts(rows)], dtype=bool)
-    compared = rows["overshoot"].where(has & ~is_ours)
-    least = compared.groupby(rows["situation"].astype(str)).transform("min")
-    return (rows["overshoot"] > least + more).to_numpy()
+    is_compared = has & ~np.array([fact.is_ours for fact in list_facts(rows)], dtype=bool)
+    overshoot = np.asarray(rows["overshoot"])
+    place, words = pd.factorize(np.asarray(rows["situation"], dtype=object))
+    least = np.full(len(words), math.inf, dtype=overshoot.dtype)
+    np.fmin.at(least, place[is_compared], overshoot[is_compared])
+    return overshoot > least[place] + more
 
 
-def meets_but_overshoot(rows: pd.DataFrame, rule: Rule = RULE) -> np.ndarray:
+def meets_but_overshoot(rows: Mapping[Any, Any], rule: Rule = RULE) -> np.ndarray:
     """Return whether the law of each row meets the requirements of a rule other than that of its overshoot."""
     facts = list_facts(rows)
     memory = np.array([fact.memory for fact in facts], dtype=int)
-    has = np.isfinite(rows[rule.by].to_numpy(dtype=float))
+    has = np.isfinite(np.asarray(rows[rule.by], dtype=float))
     if rule.everywhere:
-        has &= (rows["lost"] == 0).to_numpy()
+        has &= np.asarray(rows["lost"]) == 0
         # Exact 180° rotations hold every continuous law without memory.
-        has &= rule.continuous | (rows["stuck"] == 0).to_numpy()
+        has &= rule.continuous | (np.asarray(rows["stuck"]) == 0)
     if rule.direct:
-        has &= (rows["unwound"] == 0).to_numpy()
+        has &= np.asarray(rows["unwound"]) == 0
     if rule.adversary and not (rule.forgetful or rule.continuous):
-        has &= (rows["trapped"] == 0).to_numpy()
+        has &= np.asarray(rows["trapped"]) == 0
     if rule.forgetful or rule.continuous:
         has &= memory == 0
     if rule.continuous:
@@ -208,18 +215,18 @@ def meets_but_overshoot(rows: pd.DataFrame, rule: Rule = RULE) -> np.ndarray:
     return has
 
 
-def find_beaten(rows: pd.DataFrame, rule: Rule, pairs: pd.DataFrame | None = None) -> np.ndarray:
+def find_beaten(rows: Mapping[Any, Any], rule: Rule, pairs: Mapping[Any, Any] | None = None) -> np.ndarray:
     """Return whether the law of row i is beaten by that of row j, shape (n, n).
 
     The median, the 99.9 % time and the effort have no interval: there the share `tie` alone decides.
     """
     if rule.by in PAIRED and pairs is not None:
-        return find_slower(pairs, rows["contender"].astype(str).tolist(), rule.tie)
-    times = rows[rule.by].to_numpy(dtype=float)
+        return find_slower(pairs, [str(law) for law in np.asarray(rows["contender"], dtype=object)], rule.tie)
+    times = np.asarray(rows[rule.by], dtype=float)
     is_notable = times[None, :] < (1.0 - rule.tie) * times[:, None]
     if rule.by != "time":
         return is_notable
-    low, high = rows["time_low"].to_numpy(dtype=float), rows["time_high"].to_numpy(dtype=float)
+    low, high = np.asarray(rows["time_low"], dtype=float), np.asarray(rows["time_high"], dtype=float)
     return is_notable & (high[None, :] < low[:, None])
 
 
@@ -231,9 +238,14 @@ def group_map(folder: Path = STUDY) -> dict[Situation, pd.DataFrame]:
 
 
 @functools.cache
+def _group_columns(folder: Path) -> dict[Situation, dict[str, np.ndarray]]:
+    return {read_situation(word): rows for word, rows in split(read_map(folder)).items()}
+
+
+@functools.cache
 def decide_at(at: Situation, folder: Path = STUDY, rule: Rule = RULE) -> RuleVerdict:
     """Return the rule's verdict on one situation of a map."""
-    return decide(group_map(folder)[at], rule, read_pairs(folder).get(at.word))
+    return _decide(_group_columns(folder)[at], rule, read_pair_columns(folder).get(at.word))
 
 
 def decide_all(folder: Path = STUDY, rule: Rule = RULE) -> dict[Situation, RuleVerdict]:
