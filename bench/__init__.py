@@ -13,7 +13,7 @@ law/          what a law is: the dialect, rotations, linear algebra, records. `f
               velocity (omega = K f), impedance, unshaped (an impedance with the hand's own inertia), registry
 audit/        anybody's orientation error: pairs, convention, faults/ (one file each), report, its own command line and
               pytest plugin; knows nothing of laws
-translation/  one translator of the dialect: what functions contain, the kinds of their expressions, text with braces, and
+translation/  one translator: what functions contain, the kinds of their expressions, text with braces,
               C of whole loops
 engines/      one episode, four ways: reference, native, ideal-rk4, ideal-held; disturbed, and commanded by velocities
               metrics/, what is measured: motion/ along an episode, contact/ of a hand in contact
