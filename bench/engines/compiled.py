@@ -152,10 +152,10 @@ def compile_function(function: Callable, signature: Any, cache: bool = True, **o
     return numba.njit(numba_signature(signature), cache=cache, **JIT, **options)(function)
 
 
-def compile_on_demand(function: Callable, cached: bool = False) -> Callable:
-    """Return a function that is compiled for the values that it is called with."""
+def compile_on_demand(function: Callable, is_kept: bool = False) -> Callable:
+    """Return a function that is compiled for the values that it is called with; is_kept: on disk."""
     if in_c.compiler():
-        return in_c.CodeOnDemand(function, cached)
+        return in_c.CodeOnDemand(function, is_kept)
     register_kernels()
     return numba.njit(**JIT)(function)
 

@@ -5,7 +5,7 @@ edit elsewhere compiles nothing again. A library is written beside its place and
 A process that runs a user's law takes what is there and keeps nothing: what it compiles goes with it.
 """
 
-import atexit
+import contextlib
 import ctypes
 import functools
 import hashlib
@@ -33,6 +33,9 @@ OPTIONS = ("-std=c11", "-O2", "-ffp-contract=off", "-fPIC", "-shared", "-w")
 
 SYMBOL = "orientation_bench_entry"
 
+MOST_KEPT = 3000
+"""Libraries that are kept: those of some twenty states of the sources, 60 MB."""
+
 COMPILER_VARIABLE = "ORIENTATION_BENCH_COMPILER"
 """Environment variable: the command of a C compiler, or `numba`, which compiles where there is none."""
 
@@ -54,10 +57,16 @@ def _compiler_version() -> str:
 
 
 class LoadedCode:
-    """A file of C, compiled and loaded."""
+    """A file of C, compiled and loaded.
 
-    def __init__(self, file: CFile, cached: bool) -> None:
-        self._loaded = ctypes.CDLL(str(_path_of_library(file.text(), cached)))
+    Args:
+        file: The file.
+        is_kept: Whether its library may be kept for other processes, and taken from them.
+    """
+
+    def __init__(self, file: CFile, is_kept: bool) -> None:
+        text = file.text()
+        self._loaded = (is_kept and _load_kept(text)) or _load_once(text)
         if file.externals:
             from bench.engines.native.libmujoco import library  # MuJoCo takes a moment; the ideal plants need none
 
@@ -72,32 +81,42 @@ class LoadedCode:
         return ctypes.cast(self._loaded[symbol], ctypes.c_void_p).value or 0
 
 
-def _path_of_library(text: str, cached: bool) -> Path:
-    """Return the file of the library of a text, compiled if it is not there."""
+def _load_kept(text: str) -> ctypes.CDLL | None:
+    """Return the library of a text that is kept; None if it is not there and may not be put there."""
     words = repr((text, OPTIONS, _compiler_version()))
-    name = f"{hashlib.sha256(words.encode()).hexdigest()[:32]}.so"
-    kept = cache.FOLDER / "c" / name
-    if cached and kept.is_file():
-        return kept
-    folder = kept.parent if cached and not RUNS_A_LAW else _own_folder()
-    folder.mkdir(parents=True, exist_ok=True)
-    descriptor, temporary = tempfile.mkstemp(suffix=".so", dir=folder)
+    path = cache.FOLDER / "c" / f"{hashlib.sha256(words.encode()).hexdigest()[:32]}.so"
+    with contextlib.suppress(OSError):  # it is not there, or another process has just removed it
+        os.utime(path)
+        return ctypes.CDLL(str(path))
+    if RUNS_A_LAW:
+        return None
+    path.parent.mkdir(parents=True, exist_ok=True)
+    descriptor, temporary = tempfile.mkstemp(suffix=".part", dir=path.parent)
     os.close(descriptor)
     try:
         _compile(text, temporary)
-        os.replace(temporary, folder / name)
-    except BaseException:
+        loaded = ctypes.CDLL(temporary)
+        os.replace(temporary, path)
+    finally:
         Path(temporary).unlink(missing_ok=True)
-        raise
-    return folder / name
+    _remove_oldest(path.parent)
+    return loaded
 
 
-@functools.cache
-def _own_folder() -> Path:
-    """Return a folder for libraries that end with this process."""
-    folder = Path(tempfile.mkdtemp(prefix="orientation-bench-"))
-    atexit.register(shutil.rmtree, folder, ignore_errors=True)
-    return folder
+def _load_once(text: str) -> ctypes.CDLL:
+    """Return the library of a text; its file is gone as soon as it is loaded."""
+    with tempfile.TemporaryDirectory(prefix="orientation-bench-") as folder:
+        path = Path(folder, "law.so")
+        _compile(text, str(path))
+        return ctypes.CDLL(str(path))
+
+
+def _remove_oldest(folder: Path) -> None:
+    """Remove the libraries that were not used for longest, if there are more than MOST_KEPT."""
+    with contextlib.suppress(OSError):  # other processes remove, too
+        by_age = sorted(folder.iterdir(), key=lambda path: path.stat().st_mtime)
+        for path in by_age[:-MOST_KEPT]:
+            path.unlink()
 
 
 def _compile(text: str, path: str) -> None:
@@ -196,10 +215,10 @@ class CodeOfFunction:
         pointer: The kind of a pointer to it.
     """
 
-    def __init__(self, function: Callable, kinds: tuple[Kind, ...], cached: bool, needs_marks: bool = False) -> None:
+    def __init__(self, function: Callable, kinds: tuple[Kind, ...], is_kept: bool, needs_marks: bool = False) -> None:
         file = CFile(needs_marks)
         self.pointer = file.offer_by_pointer(SYMBOL, function, kinds)
-        self._library = LoadedCode(file, cached)
+        self._library = LoadedCode(file, is_kept)
         self.address = self._library.address(SYMBOL)
 
     def __call__(self, *values: Any) -> Any:
@@ -222,7 +241,7 @@ def compile_signature(function: Callable, signature: Signature, is_users: bool) 
         BadLaw: It is beyond the dialect, or returns another kind of value.
     """
     wanted = pointer_to(signature)
-    code = CodeOfFunction(function, wanted.parameters, cached=not is_users, needs_marks=is_users)
+    code = CodeOfFunction(function, wanted.parameters, is_kept=not is_users, needs_marks=is_users)
     if code.pointer != wanted:
         raise BadLaw(f"{function.__name__} returns {code.pointer.returns}; wanted: {wanted.returns}")
     return code
@@ -231,8 +250,8 @@ def compile_signature(function: Callable, signature: Signature, is_users: bool) 
 class CodeOnDemand:
     """A function that is compiled when it is called first with values of some kinds, as Python takes them."""
 
-    def __init__(self, function: Callable, cached: bool) -> None:
-        self._function, self._cached = function, cached
+    def __init__(self, function: Callable, is_kept: bool) -> None:
+        self._function, self._is_kept = function, is_kept
         self._codes: dict[tuple[Kind, ...], CodeOfFunction] = {}
 
     def __call__(self, *values: Any) -> Any:
@@ -243,7 +262,7 @@ class CodeOnDemand:
         """Return a function without arguments that calls this one with these values."""
         kinds = tuple(value.pointer if isinstance(value, CodeOfFunction) else kind_of(value) for value in values)
         if kinds not in self._codes:
-            self._codes[kinds] = CodeOfFunction(self._function, kinds, self._cached)
+            self._codes[kinds] = CodeOfFunction(self._function, kinds, self._is_kept)
         return self._codes[kinds].bind(*values)
 
 
@@ -253,7 +272,7 @@ class CodeOfCallback:
     def __init__(self, function: Callable) -> None:
         file = CFile()
         file.offer_callback(SYMBOL, function, numbers=3, elements=3)
-        self._library = LoadedCode(file, cached=True)
+        self._library = LoadedCode(file, is_kept=True)
         self.address = self._library.address(SYMBOL)
 
 
@@ -265,7 +284,7 @@ class CodeOfLoop:
         kinds: tuple[Kind, ...] = (*map(pointer_to, signatures), *missing, *map(kind_of_hint, hints))
         file = CFile()
         self._given = file.offer(SYMBOL, episodes, kinds)
-        self._run = LoadedCode(file, cached=True)[SYMBOL]
+        self._run = LoadedCode(file, is_kept=True)[SYMBOL]
         self._run.restype = None
 
     def __call__(self, *values: Any) -> None:

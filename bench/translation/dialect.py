@@ -8,12 +8,12 @@ The loops that run laws are written in a wider dialect: see `LOOPS`.
 import ast
 import builtins
 import inspect
-import textwrap
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 from bench.base.errors import BadLaw
 from bench.law.scalar import KERNELS, PRIMITIVES
+from bench.translation.source import tree_of
 from bench.translation.trees import free_names
 
 ARITHMETIC: dict[type, str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
@@ -96,13 +96,7 @@ class DialectFunction(NamedTuple):
 
 def read_function(function: Callable, dialect: Dialect = LAWS) -> DialectFunction:
     """Read a function; BadLaw if its text cannot be read, or a name or an operator in it cannot be translated."""
-    try:
-        text = textwrap.dedent(inspect.getsource(function))
-    except (OSError, TypeError) as error:
-        raise BadLaw(f"{function.__qualname__}: its source cannot be read ({error}); keep the law in a file") from error
-    node = ast.parse(text).body[0]
-    if not isinstance(node, ast.FunctionDef):
-        raise BadLaw(f"{function.__qualname__}: a law is a function written with def, not {type(node).__name__}")
+    node = tree_of(function)
     if ast.get_docstring(node) is not None:
         node.body = node.body[1:]
     refuse_operators(node, dialect)

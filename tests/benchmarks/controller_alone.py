@@ -163,4 +163,4 @@ def compile_loop():
                 chain = 0.0 * total
         return chain
 
-    return compile_on_demand(loop, cached=True)
+    return compile_on_demand(loop, is_kept=True)

@@ -40,7 +40,7 @@ def chain(x, steps):
 @functools.cache
 def compiled():
     """Return the kernel compiled: compiled()(START, STEPS)."""
-    return compile_on_demand(chain, cached=True)
+    return compile_on_demand(chain, is_kept=True)
 
 
 def run() -> float:

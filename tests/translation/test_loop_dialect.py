@@ -1,6 +1,8 @@
 """Code in C does what Python does with the same text: each construct of the loops' dialect, on numbers that tell."""
 
+import ast
 import math
+import runpy
 import shutil
 from typing import NamedTuple
 
@@ -12,6 +14,7 @@ from bench.engines.arrays import Matrix, Three, Vector
 from bench.engines.in_c import compile_signature
 from bench.engines.signatures import Signature
 from bench.law.scalar import kernel
+from bench.translation.source import tree_of
 
 pytestmark = pytest.mark.skipif(not shutil.which("cc"), reason="no C compiler here")
 
@@ -249,3 +252,14 @@ def look_up(x):
 def test_what_c_would_do_otherwise_is_refused_by_function_and_expression(function, hint, words):
     with pytest.raises(BadLaw, match=words):
         compile_signature(function, Signature((hint,), float), is_users=True)
+
+
+def test_function_whose_file_was_edited_after_its_import_is_refused(tmp_path):
+    path = tmp_path / "edited.py"
+    path.write_text("def double(x):\n    return 2.0 * x\n")
+    function = runpy.run_path(str(path))["double"]
+    path.write_text("def double(x):\n    return 2.0 + x\n")
+    with pytest.raises(BadLaw, match="double was edited while this ran; run it again"):
+        tree_of(function)
+    path.write_text("# a comment\ndef double(x):\n    return 2.0 * x\n")
+    assert ast.unparse(tree_of(function)) == "def double(x):\n    return 2.0 * x"
