@@ -12,6 +12,9 @@ from pathlib import Path
 from bench.base.processes import RUNS_A_LAW
 from bench.base.provenance import ARITHMETIC, cpu_name, kept_in, source_digest, vectors, versions
 
+COMPILER_VARIABLE = "ORIENTATION_BENCH_COMPILER"
+"""Environment variable: the command of a C compiler, or `numba`, which compiles where there is none."""
+
 KEPT = 8
 """Sets of versions whose compiled code is kept, the newest first."""
 
@@ -48,6 +51,6 @@ def mark_of(words: tuple[str, ...]) -> Path:
 
     It says only that nobody need compile ahead. Code that was removed since then is compiled where it is needed.
     """
-    arithmetic = [os.environ.get(name) for name in ARITHMETIC]
+    arithmetic = [os.environ.get(name) for name in (*ARITHMETIC, COMPILER_VARIABLE)]
     decides = repr((words, source_digest(), cpu_name(), vectors(), arithmetic))
     return FOLDER / "marks" / hashlib.sha256(decides.encode()).hexdigest()[:32]

@@ -23,6 +23,7 @@ import numpy as np
 from bench.base.errors import BadLaw, BenchError
 from bench.base.processes import RUNS_A_LAW
 from bench.engines import cache
+from bench.engines.cache import COMPILER_VARIABLE
 from bench.engines.signatures import Signature
 from bench.engines.typed import UNTYPED
 from bench.translation.c import CONNECT, CFile
@@ -36,9 +37,6 @@ SYMBOL = "orientation_bench_entry"
 MOST_KEPT = 3000
 """Libraries that are kept: those of some twenty states of the sources, 60 MB."""
 
-COMPILER_VARIABLE = "ORIENTATION_BENCH_COMPILER"
-"""Environment variable: the command of a C compiler, or `numba`, which compiles where there is none."""
-
 
 @functools.cache
 def compiler() -> str:
@@ -47,7 +45,12 @@ def compiler() -> str:
     if wanted == "numba":
         return ""
     names = [wanted] if wanted else ["cc", "gcc", "clang"]
-    return next((path for path in map(shutil.which, names) if path), "")
+    command = next((path for path in map(shutil.which, names) if path), "")
+    if wanted and not command:
+        raise BenchError(
+            f"{COMPILER_VARIABLE}={wanted}: there is no such command; allowed: that of a C compiler, or numba"
+        )
+    return command
 
 
 @functools.cache
@@ -123,7 +126,10 @@ def _compile(text: str, path: str) -> None:
     command = [compiler(), *OPTIONS, "-x", "c", "-o", path, "-", "-lm"]
     ended = subprocess.run(command, input=text, text=True, capture_output=True, check=False)
     if ended.returncode:
-        raise BenchError(f"{compiler()} cannot compile what was translated:\n{ended.stderr[:2000]}")
+        raise BenchError(
+            f"{compiler()} cannot compile what was translated; its headers may be missing (Debian: libc6-dev). "
+            f"{COMPILER_VARIABLE}=numba compiles without it. It said: {ended.stderr[:500]}"
+        )
 
 
 def kind_of_hint(hint: Any) -> Kind:

@@ -115,10 +115,10 @@ def kind_of(value: Any) -> Kind:
         return _kind_of_array(value)
     if inspect.isfunction(value):
         return StaticFunction(value)
-    if hasattr(value, "symbol"):
-        return External(value.symbol, NONE if str(value.sig.return_type) == "none" else INTEGER)
     if isinstance(value, str | type | ModuleType) or inspect.isbuiltin(value):
         return Known(value)
+    if hasattr(value, "symbol"):
+        return External(value.symbol, NONE if str(value.sig.return_type) == "none" else INTEGER)
     raise TypeError(f"no code can be written for a {type(value).__name__}: {value!r}")
 
 
