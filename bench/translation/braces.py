@@ -33,6 +33,8 @@ class LoopSyntax(NamedTuple):
         operations: Templates of `//`, `%` and the square.
         builtin: builtin(name, kind, arguments) -> min, max, abs, float, int or bool.
         constant: constant(value, kind) -> a number or a truth value.
+        error: What ends the body of a guard.
+        guard: Templates of the lines around the body of `try`: before it, at its end, before and after the handler.
         repeat: Template of `while`.
         counted: Template of a loop that counts up to a number which is computed once.
     """
@@ -46,6 +48,8 @@ class LoopSyntax(NamedTuple):
     operations: dict[type, str]
     builtin: Callable[[str, Kind, list[str]], str]
     constant: Callable[[Any, Kind], str]
+    error: str
+    guard: tuple[str, str, str, str]
     repeat: str = "while ({}) {{"
     counted: str = ""
 
@@ -147,11 +151,26 @@ class _Body:
             yield f"{indent}}}"
         elif isinstance(node, ast.Expr):
             yield f"{indent}{self.expression(node.value)};"
-        elif isinstance(node, ast.Try):  # nothing raises in the code
+        elif isinstance(node, ast.Try) and node in self.function.caught:
+            yield from self.guarded(node, indent)
+        elif isinstance(node, ast.Try):  # nothing raises in it
             for inner in node.body:
                 yield from self.statement(inner, set(), indent, is_last)
+        elif isinstance(node, ast.Raise):
+            yield f"{indent}{self.language.loops.error};"
         elif isinstance(node, ast.Break | ast.Continue):
             yield f"{indent}{type(node).__name__.lower()};"
+
+    def guarded(self, node: ast.Try, indent: str) -> Iterator[str]:
+        """Write what an error in the body ends, and what is then done."""
+        self.spare += 1
+        begin, end, otherwise, after = (text.format(self.spare) for text in self.language.loops.guard)
+        yield f"{indent}{begin}"
+        yield from self.block(node.body, indent)
+        yield f"{indent}{INDENT}{end}"
+        yield f"{indent}{otherwise}"
+        yield from self.block(node.handlers[0].body, indent)
+        yield f"{indent}{after}"
 
     def result(self, node: ast.Return, indent: str, is_last: bool) -> Iterator[str]:
         if node.value is not None and not is_static(self.function.returns):

@@ -35,11 +35,12 @@ TYPES = {REAL: "double", TRUTH: "int", INTEGER: "int64_t", NONE: "void"}
 WORDS = """
 auto break case char const continue default do double else enum extern float for goto if inline int long register
 restrict return short signed sizeof static struct switch typedef union unsigned void volatile while
-floor_div floor_mod square NAN INFINITY
+floor_div floor_mod square handler NAN INFINITY
 """
 """Names that a variable cannot have."""
 
 HEAD = """#include <math.h>
+#include <setjmp.h>
 #include <stdint.h>
 #include <stdlib.h>
 
@@ -51,6 +52,11 @@ static inline int64_t floor_mod(int64_t a, int64_t b) {
     int64_t r = a % b;
     return r != 0 && (r < 0) != (b < 0) ? r + b : r;
 }
+static _Thread_local jmp_buf *handler;
+static _Noreturn void raise_error(void) {
+    if (!handler) abort();
+    longjmp(*handler, 1);
+}
 static inline double square(double x) { return x * x; }
 /* Python's min and max: the first of two that do not compare, as a number and a NaN. */
 static inline double min_real(double a, double b) { return b < a ? b : a; }
@@ -58,6 +64,15 @@ static inline double max_real(double a, double b) { return b > a ? b : a; }
 static inline int64_t min_integer(int64_t a, int64_t b) { return b < a ? b : a; }
 static inline int64_t max_integer(int64_t a, int64_t b) { return b > a ? b : a; }
 """
+
+
+GUARD = (
+    "{{ jmp_buf here_{0}, *outer_{0} = handler; handler = &here_{0}; if (setjmp(here_{0}) == 0) {{",
+    "handler = outer_{0};",
+    "}} else {{ handler = outer_{0};",
+    "}} }}",
+)
+"""A guard is where an error in a function of a user's law leads to."""
 
 
 class CFile:
@@ -96,6 +111,8 @@ class CFile:
                 },
                 builtin=_builtin,
                 constant=_constant,
+                error="raise_error()",
+                guard=GUARD,
             ),
         )
 

@@ -46,6 +46,7 @@ class Expressions:
     calls: dict[ast.Call, "Typed"]
     decided: dict[ast.expr, bool]
     rewritten: dict[ast.expr, ast.expr]
+    raises: bool
 
     def of(self, node: ast.expr) -> Kind:
         """Infer and record the kind of an expression."""
@@ -260,6 +261,7 @@ class Expressions:
             value = REPLACED.get(value, value)
             given = self._given(node, self.program.read(value).parameters, {})
             self.calls[node] = self.program.typed(value, tuple(map(self.of, given)))
+            self.raises |= self.calls[node].raises
             return self.calls[node].returns
         return self._call_of_builtin(node, value) if self.program.dialect.has_integers else None
 

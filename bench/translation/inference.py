@@ -35,6 +35,8 @@ class Typed(Expressions):
         returns: The kind of the result.
         identity: The argument that it returns as it is; None if it does anything else.
         writes: Whether it writes into an array, or calls what does.
+        raises: Whether it can raise an error that it does not catch.
+        caught: Every `try` in which an error can be raised.
     """
 
     def __init__(self, program: "Program", function: DialectFunction, kinds: tuple[Kind, ...]):
@@ -69,6 +71,8 @@ class Typed(Expressions):
         self.calls: dict[ast.Call, Typed] = {}
         self.decided: dict[ast.expr, bool] = {}
         self.rewritten: dict[ast.expr, ast.expr] = {}
+        self.caught: set[ast.Try] = set()
+        self.raises = False
         results: list[Kind] = []
         try:
             self._block(self.node.body, results)
@@ -77,7 +81,22 @@ class Typed(Expressions):
         self.returns = functools.reduce(self._widest_result, results or [NONE])
         if not results and not self.program.dialect.has_integers:
             raise BadLaw(f"{self.function.name}: every path returns the same kind of value; given: {results}")
+        if self.program.dialect.has_integers and self.returns != NONE and self._can_end(self.node.body):
+            raise BadLaw(f"{self.function.name}: a path of it returns nothing")
         return True
+
+    def _can_end(self, statements: list[ast.stmt]) -> bool:
+        """Tell whether statements can be left at their end."""
+        last = statements[-1] if statements else None
+        if isinstance(last, ast.If):
+            return any(map(self._can_end, self.taken(last)))
+        if isinstance(last, ast.Try):
+            handlers = [one.body for one in last.handlers] if last in self.caught else []
+            return any(map(self._can_end, (last.body, *handlers)))
+        if isinstance(last, ast.While):
+            is_endless = isinstance(last.test, ast.Constant) and last.test.value is True
+            return not is_endless or any(isinstance(one, ast.Break) for one in ast.walk(last))
+        return not isinstance(last, ast.Return | ast.Raise)
 
     def _widest_result(self, first: Kind, second: Kind) -> Kind:
         kind = widest(first, second)
@@ -88,13 +107,11 @@ class Typed(Expressions):
         return kind
 
     def _block(self, statements: list[ast.stmt], results: list[Kind]) -> None:
-        """Infer statements; those behind a branch that is taken and returns are taken out."""
+        """Infer statements; those that cannot be reached are taken out."""
         for place, statement in enumerate(statements, start=1):
             self._statement(statement, results)
-            if isinstance(statement, ast.If) and statement.test in self.decided:
-                (branch,) = self.taken(statement)
-                if branch and isinstance(branch[-1], ast.Return):
-                    del statements[place:]
+            if self.program.dialect.has_integers and not self._can_end([statement]):
+                del statements[place:]
 
     def _statement(self, node: ast.stmt, results: list[Kind]) -> None:
         has_integers = self.program.dialect.has_integers
@@ -123,11 +140,27 @@ class Typed(Expressions):
         elif isinstance(node, ast.Expr) and isinstance(node.value, ast.Call) and has_integers:
             self.of(node.value)
         elif isinstance(node, ast.Try) and has_integers:
-            self._block(node.body, results)
+            self._try(node, results)
+        elif isinstance(node, ast.Raise) and has_integers:
+            self.raises = True
         elif isinstance(node, ast.Global):
             raise BadLaw(f"it assigns a global of the file; {STATE}")
         elif not isinstance(node, ast.Pass | ast.Break | ast.Continue):
             raise self.outside(node)
+
+    def _try(self, node: ast.Try, results: list[Kind]) -> None:
+        """Infer `try`; where nothing in it raises, its body is all that is written."""
+        raises_elsewhere, self.raises = self.raises, False
+        self._block(node.body, results)
+        if self.raises:
+            leaves = (ast.Return, ast.Break, ast.Continue)
+            is_left = any(isinstance(one, leaves) for statement in node.body for one in ast.walk(statement))
+            if is_left or len(node.handlers) != 1 or node.handlers[0].name or node.orelse or node.finalbody:
+                raise self.outside(node)
+            self.caught.add(node)
+            self.raises = False
+            self._block(node.handlers[0].body, results)
+        self.raises |= raises_elsewhere
 
     def _augment(self, node: ast.AugAssign) -> None:
         """Infer `x += y` as x = x + y."""

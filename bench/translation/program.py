@@ -4,6 +4,7 @@ import ast
 import functools
 from collections.abc import Callable
 
+from bench.base.errors import BadLaw
 from bench.translation.dialect import LAWS, Dialect, read_function, require_mark
 from bench.translation.inference import Typed
 from bench.translation.kinds import Kind, Tuple, kind_of, kind_of_constant
@@ -21,6 +22,7 @@ class Program:
         self._roots: list[Typed] = []
         self._order: list[Typed] = []
         self._done: dict[tuple, Typed] = {}
+        self._begun: set[tuple] = set()
         self._names: set[str] = set()
         self.read = functools.cache(functools.partial(read_function, dialect=dialect))
         self.kind_of = kind_of if dialect.has_integers else kind_of_constant
@@ -36,6 +38,9 @@ class Program:
         if (function, kinds) not in self._done:
             if self.needs_marks:
                 require_mark(function)
+            if (function, kinds) in self._begun:
+                raise BadLaw(f"{function.__name__} calls itself, and that cannot be translated")
+            self._begun.add((function, kinds))
             self._done[function, kinds] = typed = Typed(self, self.read(function), kinds)
             if typed.identity is None:
                 self._order.append(typed)

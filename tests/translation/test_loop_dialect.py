@@ -133,7 +133,30 @@ def guard(x: float, y: float) -> float:
     return z
 
 
-@pytest.mark.parametrize("function", [least_and_most, square_and_sign, pair_up, spread, guard])
+@kernel
+def refuse_large(x: float) -> float:
+    """Raise where x is large."""
+    if x > 2.0:
+        raise ValueError("large")
+    return x
+
+
+@kernel
+def guard_twice(x: float, y: float) -> tuple[float, float]:
+    """Catch an error of a callee, and raise another in a handler that is caught outside."""
+    z = 0.0
+    try:
+        try:
+            z = refuse_large(x) + y
+        except ValueError:
+            z = refuse_large(y)
+        w = z
+    except Exception:
+        w = -1.0
+    return z, w
+
+
+@pytest.mark.parametrize("function", [least_and_most, square_and_sign, pair_up, spread, guard, guard_twice])
 def test_real_numbers_are_python_s_to_the_bit(function):
     hints = function.__annotations__
     code = compile_signature(function, Signature((float, float), hints["return"]), is_users=True)
@@ -239,9 +262,24 @@ def look_up(x):
     return x + nowhere  # noqa: F821
 
 
+@kernel
+def fall_off(x):
+    """Return nothing on one path."""
+    if x > 0.0:
+        return x
+
+
+@kernel
+def call_itself(x):
+    """Call itself."""
+    return x if x < 1.0 else call_itself(x - 1.0)
+
+
 @pytest.mark.parametrize(
     ("function", "hint", "words"),
     [
+        (fall_off, float, "fall_off: a path of it returns nothing"),
+        (call_itself, float, "call_itself calls itself"),
         (read_beside, Vector, "read_beside: `take.b. . b.0.` has a call that writes into an array beside"),
         (power, float, r"power: `x \*\* 3` cannot be translated"),
         (build_list, float, r"build_list: `\[x, x\]` cannot be translated"),
