@@ -108,7 +108,9 @@ def _load_kept(text: str) -> ctypes.CDLL | None:
 
 def _load_once(text: str) -> ctypes.CDLL:
     """Return the library of a text; its file is gone as soon as it is loaded."""
-    with tempfile.TemporaryDirectory(prefix="orientation-bench-") as folder:
+    # A user's law may have removed the folder of temporary files.
+    places = (place for place in (tempfile.gettempdir(), "/tmp", os.getcwd()) if os.access(place, os.W_OK))
+    with tempfile.TemporaryDirectory(prefix="orientation-bench-", dir=next(places, None)) as folder:
         path = Path(folder, "law.so")
         _compile(text, str(path))
         return ctypes.CDLL(str(path))

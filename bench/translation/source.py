@@ -4,10 +4,10 @@ import ast
 import copy
 import functools
 import inspect
+import linecache
 import textwrap
 import types
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import NamedTuple
 
 from bench.base.errors import BadLaw
@@ -30,10 +30,10 @@ def tree_of(function: Callable) -> ast.FunctionDef:
         BadLaw: There is no text, it is no `def`, or its file has changed since it was imported.
     """
     code = function.__code__
+    text = "".join(linecache.getlines(code.co_filename))
     try:
-        status = Path(code.co_filename).stat()
-        file = read_file(code.co_filename, status.st_mtime_ns, status.st_size)
-    except (OSError, SyntaxError, ValueError):
+        file = read_file(code.co_filename, text)
+    except (SyntaxError, ValueError):
         return _tree_by_inspection(function)
     if code.co_name == "<lambda>":
         raise BadLaw(f"{function.__qualname__}: a law is a function written with def, not a lambda")
@@ -41,6 +41,8 @@ def tree_of(function: Callable) -> ast.FunctionDef:
     for place in (here, *file.codes):  # lines may have moved
         if place in file.trees and place[0] == code.co_name and _does_the_same(file.codes[place], code):
             return copy.deepcopy(file.trees[place])
+    if not text:
+        raise BadLaw(f"{function.__qualname__}: its source cannot be read; keep the law in a file")
     raise BadLaw(f"{code.co_filename}: {function.__qualname__} was edited while this ran; run it again")
 
 
@@ -66,16 +68,15 @@ def _tree_by_inspection(function: Callable) -> ast.FunctionDef:
 
 
 @functools.lru_cache(maxsize=512)
-def read_file(path: str, changed_ns: int, size: int) -> SourceFile:
-    """Return the functions of a file; changed_ns, size: of the file, which is read again if they differ."""
-    content = Path(path).read_bytes()
-    tree = ast.parse(content)
+def read_file(path: str, text: str) -> SourceFile:
+    """Return the functions of the text of a file."""
+    tree = ast.parse(text)
     trees = {
         (node.name, min([node.lineno, *(one.lineno for one in node.decorator_list)])): node
         for node in ast.walk(tree)
         if isinstance(node, ast.FunctionDef)
     }
-    compiled = _list_codes(compile(content, path, "exec", dont_inherit=True))
+    compiled = _list_codes(compile(text, path, "exec", dont_inherit=True))
     return SourceFile(trees, {(code.co_name, code.co_firstlineno): code for code in compiled})
 
 

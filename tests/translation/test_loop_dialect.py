@@ -1,6 +1,7 @@
 """Code in C does what Python does with the same text: each construct of the loops' dialect, on numbers that tell."""
 
 import ast
+import linecache
 import math
 import runpy
 import shutil
@@ -299,5 +300,6 @@ def test_function_whose_file_was_edited_after_its_import_is_refused(tmp_path):
     path.write_text("def double(x):\n    return 2.0 + x\n")
     with pytest.raises(BadLaw, match="double was edited while this ran; run it again"):
         tree_of(function)
+    linecache.clearcache()
     path.write_text("# a comment\ndef double(x):\n    return 2.0 * x\n")
     assert ast.unparse(tree_of(function)) == "def double(x):\n    return 2.0 * x"

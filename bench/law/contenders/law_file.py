@@ -3,6 +3,7 @@
 import ast
 import functools
 import hashlib
+import linecache
 import re
 import sys
 import tempfile
@@ -79,6 +80,8 @@ def load_law(path: Path, text: bytes | None = None) -> Law:
     module = types.ModuleType(name)
     module.__file__ = str(path)
     sys.modules[name] = module
+    # Who translates the law reads its text here, whatever becomes of the file.
+    linecache.cache[str(path)] = (len(text), None, text.decode("utf-8-sig").splitlines(keepends=True), str(path))
     try:
         exec(compile(text, path, "exec"), module.__dict__)
     except (Exception, SystemExit) as error:
