@@ -1,13 +1,10 @@
 """Plant files in a copy of the repository, among them those that CONTRIBUTING.md shows, and ask what they do there."""
 
-import contextlib
 import json
-import os
 import shutil
 from pathlib import Path
 
 from bench.base.provenance import ROOT
-from bench.engines import cache
 from support.command_line import digest, python
 
 SUPPORT = ROOT / "tests" / "support"
@@ -24,7 +21,6 @@ for words in json.loads(sys.argv[1]):
         sys.exit(f"{words}: exit code {code}")
 """
 END = "=" * 100
-UNFINISHED = shutil.ignore_patterns("*.tmp.*")
 
 
 def shown(subject: str, count: int) -> list[str]:
@@ -34,27 +30,12 @@ def shown(subject: str, count: int) -> list[str]:
 
 
 def copied(tree: Path) -> Path:
-    """A copy of the rooms, with the code that this user has compiled; what is compiled there stays there."""
-    with contextlib.suppress(OSError):  # nothing was compiled yet, or another process removes what it has not used
-        shutil.copytree(cache.FOLDER / "code", kept_code(tree) / "code", copy_function=link, ignore=UNFINISHED)
+    """A copy of the rooms."""
     for room in ("bench", "tasks", "report"):
         shutil.copytree(
             ROOT / room, tree / room, ignore=shutil.ignore_patterns("__pycache__", "_build", "pages", "index.md")
         )
     return tree
-
-
-def kept_code(tree: Path) -> Path:
-    """Return the folder of compiled code of a copy."""
-    return tree / "cache" / "numba"
-
-
-def link(source: str, target: str) -> None:
-    """Link a file, or copy it from another file system."""
-    try:
-        os.link(source, target)
-    except OSError:
-        shutil.copy2(source, target)
 
 
 def said(tree: Path, *commands: tuple[str, ...]) -> list[str]:
@@ -64,8 +45,7 @@ def said(tree: Path, *commands: tuple[str, ...]) -> list[str]:
 
 def ran(tree: Path, *words: str, code: int = 0, **variables: str) -> str:
     """What Python prints there, with these variables of the environment."""
-    caches = {"XDG_CACHE_HOME": str(tree / "cache"), "NUMBA_CACHE_DIR": str(kept_code(tree))}
-    caches["ORIENTATION_BENCH_RESULTS"] = None
+    caches = {"XDG_CACHE_HOME": str(tree / "cache"), "NUMBA_CACHE_DIR": None, "ORIENTATION_BENCH_RESULTS": None}
     return python(*words, cwd=tree, code=code, PYTHONPATH=str(tree), **caches, **variables)
 
 
