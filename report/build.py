@@ -26,6 +26,7 @@ import book_pdf
 import check_site
 import subjects
 
+from bench.__main__ import SETTINGS
 from bench.cli.progress import progress
 from bench.experiments.tables import data_package, trust
 
@@ -36,7 +37,7 @@ SITE = BUILD / "html"
 CELL_CACHE = BUILD / ".jupyter_cache"
 CELL_KEY = BUILD / "cells.key"
 STAMP = BUILD / "finished.json"
-RESULTS_VARIABLE = "ORIENTATION_BENCH_RESULTS"
+RESULTS_VARIABLE, BLAS = "ORIENTATION_BENCH_RESULTS", "OPENBLAS_NUM_THREADS"
 # What cells read and run besides a run's folder.
 BEHIND_CELLS = ("results/timings", "results/libraries", "bench", "report/figures", "tasks", "requirements")
 FILES_BEHIND_CELLS = ("pyproject.toml", "CITATION.cff", "report/subjects.py", "report/subjects.toml")
@@ -132,6 +133,7 @@ def environment(results: Path) -> dict[str, str]:
         "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH", "")])),
         "PYTHONHASHSEED": "0",
         "PYDEVD_DISABLE_FILE_VALIDATION": "1",  # else the kernel's debugger writes a line to stderr
+        BLAS: os.environ.get(BLAS, SETTINGS[BLAS]),  # threads of matrices wait at full speed
         "JUPYTER_PREFER_ENV_PATH": "1",  # this environment's kernel, whatever the user has at home
         "NO_COLOR": "1",
     }

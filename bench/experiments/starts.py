@@ -4,7 +4,7 @@ import functools
 import hashlib
 
 import tasks
-from bench.engines.kept_rows import kept
+from bench.experiments.kept_rows import kept
 from tasks.base import Start
 
 

@@ -8,7 +8,7 @@ import textwrap
 from bench.base.provenance import IS_CHECKOUT, ROOT, describe_project
 from bench.engines.counting.costs import FLOPS
 from bench.engines.counting.counted import TOTAL
-from bench.engines.counting.kept import count_once
+from bench.experiments.costs import count_operations
 from bench.export.subject import COMPENSATOR, IMPEDANCE, SPRING, Subject
 from bench.law.attribution import describe_source
 from bench.law.inputs import reads_limits
@@ -101,7 +101,7 @@ def _facts(subject: Subject) -> list[str]:
     if subject.contender is None:
         lines = [line for kind, lines in OF_KIND.items() if subject.word.startswith(kind) for line in lines]
         return [*lines, f"Property  {subject.record.property}"] if hasattr(subject.record, "property") else lines
-    rows = count_once(subject.contender)
+    rows = count_operations(subject.contender)
     counted = next(row for row in rows if (row["branch"], row["stage"]) == ("typical", TOTAL))
     flops, calls = (sum(counted[name] for name in names) for names in (FLOPS, ("sin", "cos", "atan2", "acos")))
     lines = [

@@ -9,13 +9,13 @@ from support.user_law import DAMPER, law_text
 import tasks
 from bench.engines import cache, counting
 from bench.engines.curve import NUMBERS, blank_curves
-from bench.engines.kept_rows import kept
 from bench.engines.simulate import run
 from bench.experiments import plan as planning
 from bench.experiments import starts, traces
 from bench.experiments.costs import count_operations
 from bench.experiments.episode_rows import judged_columns
 from bench.experiments.experiment import rows_of
+from bench.experiments.kept_rows import kept
 from bench.experiments.request import Request
 from bench.experiments.rounding import NUDGE, OUTCOME_NUDGED, ROUNDING_CHANGE, nudged, rerun_nudged
 from bench.law.contenders.law_file import load_law

@@ -36,7 +36,7 @@ def slower_pairs(notable, folder="situations"):
     longer, shorter = -math.log(1.0 - notable), math.log(1.0 - notable)
     own = pairs.loc[(ratio > longer) & (low > 0.0), ["situation", "law", "other"]]
     other = pairs.loc[(ratio < shorter) & (high < 0.0), ["situation", "other", "law"]]
-    return {row for some in (own, other) for row in map(tuple, some.to_numpy(object))}
+    return {*map(tuple, own.to_numpy(object)), *map(tuple, other.to_numpy(object))}
 
 
 @functools.cache
@@ -83,23 +83,17 @@ def widest():
 @functools.cache
 def shares_of(law, notable):
     """Return counts of drawn situations: unbeaten among the qualified, among all, failing, losing, and how many."""
-    slower, counts = slower_pairs(notable), collections.Counter()
-    for word, own in drawn_rows().items():
-        faster = [other for other in own if not is_ours(other) and (word, law, other) in slower]
-        meets, lost = own[law]
-        counts["qualified"] += meets and not any(own[other][0] for other in faster)
+    rows = map_rows()
+    rows = rows[[is_of_draw(at) for at in rows[[*COORDINATES]].itertuples(index=False, name=None)]]
+    slower = slower_pairs(notable)
+    counts = collections.Counter()
+    for word, own in rows.groupby("word"):
+        own = own.set_index("law")
+        faster = [other for other in own.index if not is_ours(other) and (word, law, other) in slower]
+        meets = own["qualified"][law]
+        counts["qualified"] += meets and not any(own["qualified"][other] for other in faster)
         counts["all"] += meets and not faster
         counts["failing"] += not meets
-        counts["losing"] += lost > 0
+        counts["losing"] += own["lost"][law] > 0
         counts["of"] += 1
     return dict(counts)
-
-
-@functools.cache
-def drawn_rows():
-    """Return word of a drawn situation -> law -> (whether it has what is required, share of starts that it loses)."""
-    rows, found = map_rows(), collections.defaultdict(dict)
-    rows = rows[[is_of_draw(at) for at in rows[[*COORDINATES]].itertuples(index=False, name=None)]]
-    for word, law, qualified, lost in rows[["word", "law", "qualified", "lost"]].to_numpy(object):
-        found[word][law] = qualified, lost
-    return dict(found)

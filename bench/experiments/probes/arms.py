@@ -12,10 +12,10 @@ import numpy as np
 
 import tasks
 from bench.base.on_first_use import pd
-from bench.engines.kept_rows import kept
 from bench.experiments import traces
 from bench.experiments.episodes import rows_from
 from bench.experiments.experiment import Unit
+from bench.experiments.kept_rows import kept
 from bench.experiments.probe_values.arms import (
     BY_EULER,
     CURVES,

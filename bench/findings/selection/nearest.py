@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import collections
+import functools
 from pathlib import Path
 from typing import NamedTuple
 
@@ -18,7 +19,6 @@ from bench.findings.selection.regions import (
     RuleVerdict,
     decide,
     decide_at,
-    group_map,
     read_map,
 )
 from tasks.situation import COORDINATES, Situation, read_situation
@@ -63,17 +63,22 @@ def decide_nearest(
 ) -> tuple[Situation, RuleVerdict]:
     """Return the situation of the map that is nearest to the user's, and its verdict; no other one is decided."""
     rows = read_map(folder)
-    situations = [read_situation(str(word)) for word in rows["situation"].unique()]
-    places = np.array([at.scaled() for at in situations])
+    situations, places = _list_places(folder)
     nearest = situations[int(np.argmin(np.linalg.norm(places - np.array(wanted.scaled()), axis=1)))]
     pairs = read_pairs(folder).get(nearest.word)
     return nearest, decide(rows[rows["situation"] == nearest.word], rule, pairs)
 
 
+@functools.cache
+def _list_places(folder: Path) -> tuple[list[Situation], np.ndarray]:
+    """Return the situations of a map, and the place of each among the extreme levels."""
+    situations = [read_situation(str(word)) for word in read_map(folder)["situation"].unique()]
+    return situations, np.array([at.scaled() for at in situations])
+
+
 def answer(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -> MapAnswer:
     """Return the verdict on the situation of the map that is nearest to the user's."""
-    situations = list(group_map(folder))
-    places = np.array([at.scaled() for at in situations])
+    situations, places = _list_places(folder)
     away = np.linalg.norm(places - np.array(wanted.scaled()), axis=1)
     order = np.argsort(away, kind="stable")
     nearest = situations[order[0]]

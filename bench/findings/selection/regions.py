@@ -248,6 +248,7 @@ def decide_at(at: Situation, folder: Path = STUDY, rule: Rule = RULE) -> RuleVer
     return _decide(_group_columns(folder)[at], rule, read_pair_columns(folder).get(at.word))
 
 
+@functools.cache
 def decide_all(folder: Path = STUDY, rule: Rule = RULE) -> dict[Situation, RuleVerdict]:
     """Return the rule's verdict on every situation of a map."""
     return {at: decide_at(at, folder, rule) for at in group_map(folder)}

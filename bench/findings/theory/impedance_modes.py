@@ -17,7 +17,8 @@ Limitations: where J loses rank; says nothing of errors that are not small.
 Source: Albu-Schaeffer, Ott, Frese, Hirzinger 2003.
 """
 
-from typing import NamedTuple
+import functools
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -38,6 +39,11 @@ ANGLES = np.geomspace(1e-3, np.pi, 1_000)
 """Angles of z on the unit circle at which a held loop is looked at; the crossings are interpolated."""
 ITERATIONS = 30
 """Greatest number of iterations for the delay of a held loop."""
+
+DESIGN = ["arm", "variation", "damping", "stiffness_n_m", "stiffness_nm_rad", "zeta", "dt_s"]
+"""The columns that decide modes and limits."""
+
+LIMITS = ("longest_dt_s", "radius", "longest_delay_s")
 
 
 class Hand(NamedTuple):
@@ -155,25 +161,38 @@ def compute_radius(P: np.ndarray, Q: np.ndarray, dt: float) -> float:
 
 def with_exact_hold(rows: pd.DataFrame) -> pd.DataFrame:
     """Return rows of impedance-modes.parquet with the limits of an exact hold: `held_dt_s`, `held_delay_s`."""
-    keys = ["arm", "variation", "damping", "stiffness_n_m", "stiffness_nm_rad", "zeta", "dt_s"]
-    groups = []
-    for key, group in rows.groupby(keys, observed=True, sort=False):
-        arm, variation, damping, translation, rotation, zeta, dt = key
-        P, Q = hand_matrices(hand_of(str(arm), str(variation)), str(damping), (translation, rotation), zeta)
-        limits = {"held_dt_s": longest_held_tick(P, Q), "held_delay_s": longest_held_delay(P, Q, dt)}
-        groups.append(group.assign(**limits))
+    groups = [
+        group.assign(**_find_held_limits(*key)) for key, group in rows.groupby(DESIGN, observed=True, sort=False)
+    ]
     return pd.concat(groups) if groups else rows
 
 
 def with_theory(rows: pd.DataFrame) -> pd.DataFrame:
     """Return rows of impedance-modes.parquet with theory's omega, ratio, radius and limits: `omega_theory`, ..."""
-    keys, found = ["arm", "variation", "damping", "stiffness_n_m", "stiffness_nm_rad", "zeta", "dt_s"], []
-    for key, group in rows.groupby(keys, observed=True, sort=False):
-        arm, variation, damping, translation, rotation, zeta, dt = key
-        hand = hand_of(str(arm), str(variation))
-        P, Q = hand_matrices(hand, str(damping), (translation, rotation), zeta)
-        omega, ratio = compute_modes(P, Q, hand.mobility)
-        places, more = group["mode"].to_numpy() - 1, {"longest_dt_s_theory": longest_tick(P, Q)}
-        more |= {"radius_theory": compute_radius(P, Q, dt), "longest_delay_s_theory": longest_delay(P, Q, dt)}
-        found.append(group.assign(omega_theory=omega[places], ratio_theory=ratio[places], **more))
+    found = []
+    for key, group in rows.groupby(DESIGN, observed=True, sort=False):
+        theory, places = _compute_theory(*key), group["mode"].to_numpy() - 1
+        by_mode = {f"{name}_theory": theory[name][places] for name in ("omega", "ratio")}
+        found.append(group.assign(**by_mode, **{f"{name}_theory": theory[name] for name in LIMITS}))
     return pd.concat(found) if found else rows
+
+
+@functools.cache
+def _find_held_limits(
+    arm: str, variation: str, damping: str, translation: float, rotation: float, zeta: float, dt: float
+) -> dict[str, float]:
+    """Find the limits of a design with an exact hold."""
+    P, Q = hand_matrices(hand_of(str(arm), str(variation)), str(damping), (translation, rotation), zeta)
+    return {"held_dt_s": longest_held_tick(P, Q), "held_delay_s": longest_held_delay(P, Q, dt)}
+
+
+@functools.cache
+def _compute_theory(
+    arm: str, variation: str, damping: str, translation: float, rotation: float, zeta: float, dt: float
+) -> dict[str, Any]:
+    """Compute the modes and the limits of a design; tables of the same designs share them."""
+    hand = hand_of(str(arm), str(variation))
+    P, Q = hand_matrices(hand, str(damping), (translation, rotation), zeta)
+    omega, ratio = compute_modes(P, Q, hand.mobility)
+    limits = (longest_tick(P, Q), compute_radius(P, Q, dt), longest_delay(P, Q, dt))
+    return {"omega": omega, "ratio": ratio, **dict(zip(LIMITS, limits, strict=True))}

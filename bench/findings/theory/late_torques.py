@@ -102,6 +102,7 @@ def transition(gain: float, delay: float) -> np.ndarray:
     return np.array([e, omega, command])
 
 
+@functools.cache
 def find_constant_limit(delay: float) -> float:
     """Return the Kv T above which torques late by this share of the period lose the loop."""
     low = 0.0

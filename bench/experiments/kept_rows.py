@@ -1,4 +1,4 @@
-"""Rows that the sources alone decide, kept beside compiled code (cache.py): made once for all runs."""
+"""Rows that the sources alone decide, kept beside compiled code (bench/engines/cache.py): made once for all runs."""
 
 import contextlib
 from collections.abc import Callable
