@@ -13,6 +13,7 @@ import os
 import shutil
 import subprocess
 import tempfile
+import threading
 import typing
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -31,6 +32,10 @@ from bench.translation.kinds import INTEGER, NONE, REAL, TRUTH, Array, Kind, Poi
 
 OPTIONS = ("-std=c11", "-O2", "-ffp-contract=off", "-fPIC", "-shared", "-w")
 """Never -ffast-math, and no product is fused with a sum: results must be the plain Python call's, bit for bit."""
+
+TRANSLATING = threading.Lock()
+"""Held while a function is translated: Python 3.11 may not parse in two threads at once (SystemError: AST constructor
+recursion depth mismatch). The C compiler runs without it."""
 
 SYMBOL = "orientation_bench_entry"
 
@@ -63,17 +68,17 @@ class LoadedCode:
     """A file of C, compiled and loaded.
 
     Args:
-        file: The file.
+        text: The file.
+        externals: Names of the functions of MuJoCo's library that it calls, in its order.
         is_kept: Whether its library may be kept for other processes, and taken from them.
     """
 
-    def __init__(self, file: CFile, is_kept: bool) -> None:
-        text = file.text()
+    def __init__(self, text: str, externals: list[str], is_kept: bool) -> None:
         self._loaded = (is_kept and _load_kept(text)) or _load_once(text)
-        if file.externals:
+        if externals:
             from bench.engines.native.libmujoco import library  # MuJoCo takes a moment; the ideal plants need none
 
-            pointers = [ctypes.cast(library[name], ctypes.c_void_p) for name in file.externals]
+            pointers = [ctypes.cast(library[name], ctypes.c_void_p) for name in externals]
             self._loaded[CONNECT]((ctypes.c_void_p * len(pointers))(*pointers))
 
     def __getitem__(self, symbol: str) -> Any:
@@ -224,9 +229,11 @@ class CodeOfFunction:
     """
 
     def __init__(self, function: Callable, kinds: tuple[Kind, ...], is_kept: bool, needs_marks: bool = False) -> None:
-        file = CFile(needs_marks)
-        self.pointer = file.offer_by_pointer(SYMBOL, function, kinds)
-        self._library = LoadedCode(file, is_kept)
+        with TRANSLATING:
+            file = CFile(needs_marks)
+            self.pointer = file.offer_by_pointer(SYMBOL, function, kinds)
+            text = file.text()
+        self._library = LoadedCode(text, file.externals, is_kept)
         self.address = self._library.address(SYMBOL)
 
     def __call__(self, *values: Any) -> Any:
@@ -278,9 +285,11 @@ class CodeOfCallback:
     """A function that a library calls back by its `address`, with three whole numbers and an array of three."""
 
     def __init__(self, function: Callable) -> None:
-        file = CFile()
-        file.offer_callback(SYMBOL, function, numbers=3, elements=3)
-        self._library = LoadedCode(file, is_kept=True)
+        with TRANSLATING:
+            file = CFile()
+            file.offer_callback(SYMBOL, function, numbers=3, elements=3)
+            text = file.text()
+        self._library = LoadedCode(text, file.externals, is_kept=True)
         self.address = self._library.address(SYMBOL)
 
 
@@ -290,9 +299,11 @@ class CodeOfLoop:
     def __init__(self, episodes: Callable, signatures: tuple[Signature, ...], hints: tuple) -> None:
         missing = [NONE] * (3 - len(signatures))
         kinds: tuple[Kind, ...] = (*map(pointer_to, signatures), *missing, *map(kind_of_hint, hints))
-        file = CFile()
-        self._given = file.offer(SYMBOL, episodes, kinds)
-        self._run = LoadedCode(file, is_kept=True)[SYMBOL]
+        with TRANSLATING:
+            file = CFile()
+            self._given = file.offer(SYMBOL, episodes, kinds)
+            text = file.text()
+        self._run = LoadedCode(text, file.externals, is_kept=True)[SYMBOL]
         self._run.restype = None
 
     def __call__(self, *values: Any) -> None:
