@@ -16,7 +16,7 @@ STAMPS = """
 import json
 import numba
 from bench.base.provenance import source_digest
-from bench.engines import compiled, simulate
+from bench.engines import compiled, signatures, simulate
 from bench.engines.dependencies import stamp_of
 from bench.engines.metrics.registry import metrics_of
 from bench.experiments.limiters import clamp_axes
@@ -29,9 +29,12 @@ laws["deoxys"] = Contender(contenders("shipped")["deoxys"].law)
 stamps = {name: simulate.evaluation(law) for name, law in laws.items()}
 for kind in ("ideal-rk4", "perturbed", "arm"):
     stamps[kind] = simulate.compiled_loop(kind, tuple(metrics_of(kind == "arm")))
-stamps["limiter"] = compiled.part(clamp_axes, compiled.LIMIT)
+stamps["limiter"] = compiled.part(clamp_axes, signatures.LIMIT)
 print(json.dumps(stamps | {"rows": source_digest()}))
 """
+
+NUMBA = {"ORIENTATION_BENCH_COMPILER": "numba"}
+"""Variables of processes in which numba compiles though there is a C compiler."""
 
 LOOPS = {"ideal-rk4", "perturbed", "arm"}
 LAWS = {"mrp", "mrp-memory", "linearized-euler/zyx-euler", "deoxys"}
@@ -104,7 +107,7 @@ def edited(copy):
 
 
 def read_stamps(copy, **variables):
-    return json.loads(python("-c", STAMPS, cwd=copy, PYTHONPATH=str(copy), **variables))
+    return json.loads(python("-c", STAMPS, cwd=copy, PYTHONPATH=str(copy), **NUMBA, **variables))
 
 
 @pytest.fixture(scope="module")
@@ -189,7 +192,7 @@ print(json.dumps(u))
 
 def command(copy, cache, **variables):
     """Return the command, and how many files of compiled code there are."""
-    out = python("-c", COMMAND, cwd=copy, PYTHONPATH=str(copy), NUMBA_CACHE_DIR=str(cache), **variables)
+    out = python("-c", COMMAND, cwd=copy, PYTHONPATH=str(copy), NUMBA_CACHE_DIR=str(cache), **NUMBA, **variables)
     return json.loads(out), len(list(cache.rglob("*.nbc")))
 
 
@@ -266,7 +269,7 @@ print(json.dumps([len(compiled_files), len(constants), uncovered, unseen]))
 
 
 def test_all_that_numba_reads_is_in_the_stamp(tmp_path):
-    files, constants, uncovered, unseen = json.loads(python("-c", COVERED, NUMBA_CACHE_DIR=str(tmp_path)))
+    files, constants, uncovered, unseen = json.loads(python("-c", COVERED, NUMBA_CACHE_DIR=str(tmp_path), **NUMBA))
     assert files > 10
     assert constants > 30
     assert uncovered == []

@@ -23,19 +23,26 @@ from bench.running.wire_format import described
 EVERY = plan.make(Request("quick", tuple(all_contenders()), tasks=("free-body",)))
 
 
-def compile_apart(folder: Path, units: tuple, *counted: str) -> list[int]:
+def compile_apart(folder: Path, units: tuple, *counted: str, **variables: str) -> list[int]:
     """Compile and count in a process with a cache of its own; the numbers that it prints."""
     content = json.dumps({"plan": described(EVERY, units), "count": counted})
     command = module_command("bench.running.precompile", str(os.getpid()))
-    environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder)}
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder), **variables}
     done = subprocess.run(command, env=environment, input=content, text=True, check=True, capture_output=True)
     return [int(line) for line in done.stdout.splitlines()]
 
 
+HELD = [next(one for one in EVERY.units if one.engine == "ideal-held")]
+
+
 def test_it_leaves_a_loop_a_law_and_counts_in_the_cache(tmp_path):
-    units = [next(one for one in EVERY.units if one.engine == "ideal-held")]
-    assert set(compile_apart(tmp_path, units, "hybrid")) == {0, 1}
+    assert set(compile_apart(tmp_path, HELD, "hybrid")) == {0, 1}
     assert {path.stem.partition("-")[2] for path in (tmp_path / "costs").iterdir()} == {"hybrid"}
+    assert len(list((tmp_path / "c").glob("*.so"))) == 3  # the loop, the law, and what MuJoCo calls back
+
+
+def test_numba_leaves_a_loop_and_a_law_in_the_cache_where_it_compiles(tmp_path):
+    assert set(compile_apart(tmp_path, HELD, ORIENTATION_BENCH_COMPILER="numba")) == {0}
     assert {"binding", "loop"} <= {path.name.split(".")[0] for path in tmp_path.rglob("*.nbc")}
 
 
