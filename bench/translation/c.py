@@ -25,6 +25,7 @@ from bench.translation.kinds import (
     Tuple,
     is_static,
 )
+from bench.translation.order import holds_array
 from bench.translation.program import Program
 
 CONNECT = "orientation_bench_connect"
@@ -73,6 +74,11 @@ GUARD = (
     "}} }}",
 )
 """A guard is where an error in a function of a user's law leads to."""
+
+
+INLINED = "__attribute__((always_inline)) "
+"""Functions that are given arrays are always inlined: a call hands on an address and sizes of each, and a controller of
+an arm took up to twice the time."""
 
 
 class CFile:
@@ -215,7 +221,8 @@ class CFile:
         there = {name: kind for name, kind in function.parameters.items() if not is_static(kind)}
         given = ", ".join(f"{self.type(kind)} {self._language.variable(name)}" for name, kind in there.items())
         returns = "void" if is_static(function.returns) else self.type(function.returns)
-        return f"static inline {returns} fn_{function.name}({given or 'void'})"
+        inlined = INLINED if any(map(holds_array, there.values())) else ""
+        return f"static inline {inlined}{returns} fn_{function.name}({given or 'void'})"
 
     def offer(self, symbol: str, function: Callable, kinds: tuple[Kind, ...]) -> Tuple:
         """Add a function that Python calls by its symbol, on the address of a structure of its arguments.

@@ -25,7 +25,7 @@ def _is_writing_call(typed: "Typed", node: ast.AST) -> bool:
         return typed.calls[node].writes
     callee = typed.callee(node.func)
     if isinstance(callee, Pointer):
-        return any(map(_holds_array, callee.parameters))
+        return any(map(holds_array, callee.parameters))
     return isinstance(callee, External)
 
 
@@ -49,8 +49,9 @@ def _reads_array(typed: "Typed", node: ast.AST) -> bool:
     if isinstance(node, ast.Subscript):
         return isinstance(typed.kinds.get(node.value), Array) and not isinstance(typed.kinds.get(node), Array)
     given = node.args if isinstance(node, ast.Call) else []
-    return any(_holds_array(typed.kinds.get(one, NONE)) for one in given)
+    return any(holds_array(typed.kinds.get(one, NONE)) for one in given)
 
 
-def _holds_array(kind: Kind) -> bool:
-    return isinstance(kind, Array) or (isinstance(kind, Tuple) and any(map(_holds_array, kind.items)))
+def holds_array(kind: Kind) -> bool:
+    """Tell whether a value of a kind has an array in it."""
+    return isinstance(kind, Array) or (isinstance(kind, Tuple) and any(map(holds_array, kind.items)))
