@@ -13,45 +13,12 @@ from bench.translation.dialect import ARITHMETIC, COMPARISONS, SIGNS, WHOLE
 from bench.translation.inference import Typed
 from bench.translation.kinds import INTEGER, REAL, Array, External, Kind, Known, Pointer, Tuple, is_static
 from bench.translation.layout import INDENT, wrapped
+from bench.translation.loop_syntax import LoopSyntax
 from bench.translation.trees import count_assignments, names_in, place_of
 
 STRENGTH = {ast.Mult: 6, ast.Div: 6, ast.Add: 5, ast.Sub: 5}
 BITS = {ast.BitAnd: " & ", ast.BitOr: " | "}
 """How an operator binds: a call 9, a sign 7, a comparison 4, `and` 3, `or` 2, a choice 1, in every such language."""
-
-
-class LoopSyntax(NamedTuple):
-    """How a language writes what only the dialect of the loops has.
-
-    Attributes:
-        element: element(kind, array, indices) -> an element.
-        view: view(kind, array, indices, lower, upper) -> a row, or the part from lower to upper of one.
-        size: size(array, place) -> how many elements lie along an index.
-        by_pointer: by_pointer(pointer, function, arguments) -> a call.
-        external: external(function, arguments) -> a call of a function of a library.
-        address: Template of the address of an array, a whole number.
-        operations: Templates of `//`, `%` and the square.
-        builtin: builtin(name, kind, arguments) -> min, max, abs, float, int or bool.
-        constant: constant(value, kind) -> a number or a truth value.
-        error: What ends the body of a guard.
-        guard: Templates of the lines around the body of `try`: before it, at its end, before and after the handler.
-        repeat: Template of `while`.
-        counted: Template of a loop that counts up to a number which is computed once.
-    """
-
-    element: Callable[[Array, str, list[str]], str]
-    view: Callable[[Array, str, list[str], str, str], str]
-    size: Callable[[str, int | str], str]
-    by_pointer: Callable[[Pointer, str, list[str]], str]
-    external: Callable[[External, list[str]], str]
-    address: str
-    operations: dict[type, str]
-    builtin: Callable[[str, Kind, list[str]], str]
-    constant: Callable[[Any, Kind], str]
-    error: str
-    guard: tuple[str, str, str, str]
-    repeat: str = "while ({}) {{"
-    counted: str = ""
 
 
 class Braces(NamedTuple):
@@ -76,7 +43,7 @@ class Braces(NamedTuple):
     loop: str = "for ({declared} = {first}; {name} < {last}; {name}++)"
     last: str = "return {};"
     unused: str = ""
-    loops: Any = None  # a LoopSyntax
+    loops: LoopSyntax | None = None
 
     def variable(self, name: str) -> str:
         """Return a local name, with an underscore after it if it is a word of the language."""
@@ -96,6 +63,7 @@ class _Body:
 
     def __init__(self, language: Braces, function: Typed) -> None:
         self.language, self.function = language, function
+        self.loops: Any = language.loops  # where a function of a loop is written, it is there
         self.spare = 0
 
     def lines(self) -> Iterator[str]:
@@ -146,7 +114,7 @@ class _Body:
         elif isinstance(node, ast.For):
             yield from self.loop(node, indent)
         elif isinstance(node, ast.While):
-            yield indent + self.language.loops.repeat.format(self.expression(node.test))
+            yield indent + self.loops.repeat.format(self.expression(node.test))
             yield from self.block(node.body, indent)
             yield f"{indent}}}"
         elif isinstance(node, ast.Expr):
@@ -157,14 +125,14 @@ class _Body:
             for inner in node.body:
                 yield from self.statement(inner, set(), indent, is_last)
         elif isinstance(node, ast.Raise):
-            yield f"{indent}{self.language.loops.error};"
+            yield f"{indent}{self.loops.error};"
         elif isinstance(node, ast.Break | ast.Continue):
             yield f"{indent}{type(node).__name__.lower()};"
 
     def guarded(self, node: ast.Try, indent: str) -> Iterator[str]:
         """Write what an error in the body ends, and what is then done."""
         self.spare += 1
-        begin, end, otherwise, after = (text.format(self.spare) for text in self.language.loops.guard)
+        begin, end, otherwise, after = (text.format(self.spare) for text in self.loops.guard)
         yield f"{indent}{begin}"
         yield from self.block(node.body, indent)
         yield f"{indent}{INDENT}{end}"
@@ -285,7 +253,7 @@ class _Body:
                 return self.constant(getattr(of.value, node.attr), kind)
             case ast.Attribute() if isinstance(kinds[node.value], Array):
                 array = self.expression(node.value, 9)
-                return (language.loops.address.format(array) if node.attr == "data" else array), 9
+                return (self.loops.address.format(array) if node.attr == "data" else array), 9
             case ast.Attribute():
                 of = kinds[node.value]
                 return language.part(of, self.expression(node.value, 9), of.fields.index(node.attr)), 9
@@ -331,7 +299,7 @@ class _Body:
         place = place_of(node.slice)
         at = self.expression(node.slice) if place is None else place % len(of.items)
         if isinstance(node.value, ast.Attribute) and isinstance(self.function.kinds[node.value.value], Array):
-            return self.language.loops.size(self.expression(node.value.value, 9), at)
+            return self.loops.size(self.expression(node.value.value, 9), at)
         return self.language.part(of, self.expression(node.value, 9), at)
 
     def part_of_array(self, of: Array, node: ast.Subscript) -> str:
@@ -339,12 +307,12 @@ class _Body:
         indices = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
         texts = [self.expression(one) for one in indices if not isinstance(one, ast.Slice)]
         if not isinstance(self.function.kinds[node], Array):
-            return self.language.loops.element(of, array, texts)
+            return self.loops.element(of, array, texts)
         bounds = [(one.lower, one.upper) for one in indices if isinstance(one, ast.Slice)]
         lower, upper = bounds[0] if bounds else (None, None)
         first = self.expression(lower) if lower else "0"
-        last = self.expression(upper) if upper else self.language.loops.size(array, len(texts))
-        return self.language.loops.view(of, array, texts, first, last)
+        last = self.expression(upper) if upper else self.loops.size(array, len(texts))
+        return self.loops.view(of, array, texts, first, last)
 
     def operation(self, node: ast.BinOp) -> tuple[str, int]:
         operator, kinds = type(node.op), self.function.kinds
@@ -352,10 +320,10 @@ class _Body:
             return f"{self.expression(node.left, 9)}{BITS[operator]}{self.expression(node.right, 9)}", 1
         if operator in WHOLE:
             sides = self.expression(node.left), self.expression(node.right)
-            return self.language.loops.operations[operator].format(*sides), 9
+            return self.loops.operations[operator].format(*sides), 9
         if operator is ast.Div and REAL not in (kinds[node.left], kinds[node.right]):
             sides = self.expression(node.left), self.expression(node.right)
-            return self.language.loops.operations[operator].format(*sides), 9
+            return self.loops.operations[operator].format(*sides), 9
         strength = STRENGTH[operator]
         left, right = self.expression(node.left, strength), self.expression(node.right, strength + 1)
         return f"{left} {ARITHMETIC[operator]} {right}", strength
@@ -381,9 +349,9 @@ class _Body:
         value = self.function.callee(node.func)
         if isinstance(value, Pointer):
             texts = self.expressions(node.args)
-            return self.language.loops.by_pointer(value, self.expression(node.func), texts), 9
+            return self.loops.by_pointer(value, self.expression(node.func), texts), 9
         if isinstance(value, External):
-            return self.language.loops.external(value, self.expressions(node.args)), 9
+            return self.loops.external(value, self.expressions(node.args)), 9
         if isinstance(kind, Tuple):
             return self.language.built(kind, self.expressions(node.args)), 9
         texts = self.expressions(node.args)
@@ -397,8 +365,8 @@ class _Body:
         if isinstance(of, Known):
             return self.value(float(of.value), kind)
         if value is len:
-            return self.language.loops.size(texts[0], 0) if isinstance(of, Array) else str(len(of.items))
-        return self.language.loops.builtin(value.__name__, kind, texts)
+            return self.loops.size(texts[0], 0) if isinstance(of, Array) else str(len(of.items))
+        return self.loops.builtin(value.__name__, kind, texts)
 
     def value(self, value: Any, kind: Kind) -> str:
         """Write a constant; numbers read back as the same bits."""
@@ -406,5 +374,5 @@ class _Body:
             pairs = zip(value, kind.items, strict=True)
             return self.language.built(kind, [self.value(*pair) for pair in pairs if not is_static(pair[1])])
         if self.language.loops:
-            return self.language.loops.constant(value, kind)
+            return self.loops.constant(value, kind)
         return repr(float(value)) if kind == REAL else str(value).lower()

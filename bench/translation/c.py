@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from bench.translation.braces import Braces, LoopSyntax
+from bench.translation.braces import Braces
 from bench.translation.dialect import LOOPS
 from bench.translation.inference import Typed
 from bench.translation.kinds import (
@@ -25,6 +25,7 @@ from bench.translation.kinds import (
     Tuple,
     is_static,
 )
+from bench.translation.loop_syntax import LoopSyntax
 from bench.translation.order import holds_array
 from bench.translation.program import Program
 

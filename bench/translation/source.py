@@ -16,7 +16,7 @@ Place = tuple[str, int]
 """The name of a function, and its first line in its file."""
 
 
-class SourceFile(NamedTuple):
+class FunctionsOfFile(NamedTuple):
     """The functions of a file: their trees, and the byte code of their text as it is on disk."""
 
     trees: dict[Place, ast.FunctionDef]
@@ -68,7 +68,7 @@ def _tree_by_inspection(function: Callable) -> ast.FunctionDef:
 
 
 @functools.lru_cache(maxsize=512)
-def read_file(path: str, text: str) -> SourceFile:
+def read_file(path: str, text: str) -> FunctionsOfFile:
     """Return the functions of the text of a file."""
     tree = ast.parse(text)
     trees = {
@@ -77,7 +77,7 @@ def read_file(path: str, text: str) -> SourceFile:
         if isinstance(node, ast.FunctionDef)
     }
     compiled = _list_codes(compile(text, path, "exec", dont_inherit=True))
-    return SourceFile(trees, {(code.co_name, code.co_firstlineno): code for code in compiled})
+    return FunctionsOfFile(trees, {(code.co_name, code.co_firstlineno): code for code in compiled})
 
 
 def _list_codes(code: types.CodeType) -> Iterator[types.CodeType]:
