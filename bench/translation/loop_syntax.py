@@ -22,7 +22,6 @@ class LoopSyntax(NamedTuple):
         error: What ends the body of a guard.
         guard: Templates of the lines around the body of `try`: before it, at its end, before and after the handler.
         repeat: Template of `while`.
-        counted: Template of a loop that counts up to a number which is computed once.
     """
 
     element: Callable[[Array, str, list[str]], str]
@@ -37,4 +36,3 @@ class LoopSyntax(NamedTuple):
     error: str
     guard: tuple[str, str, str, str]
     repeat: str = "while ({}) {{"
-    counted: str = ""

@@ -4,7 +4,6 @@ import ast
 import linecache
 import math
 import runpy
-import shutil
 from typing import NamedTuple
 
 import numpy as np
@@ -12,12 +11,12 @@ import pytest
 
 from bench.base.errors import BadLaw
 from bench.engines.arrays import Matrix, Three, Vector
-from bench.engines.in_c import compile_signature
+from bench.engines.in_c import compile_signature, compiler
 from bench.engines.signatures import Signature
 from bench.law.scalar import kernel
 from bench.translation.source import tree_of
 
-pytestmark = pytest.mark.skipif(not shutil.which("cc"), reason="no C compiler here")
+pytestmark = pytest.mark.skipif(not compiler(), reason="no C compiler here, or numba is wanted")
 
 INTEGERS = (-7, -3, -1, 0, 1, 2, 5)
 REALS = (-1.5, -0.0, 0.0, 0.25, 3.0, math.inf, math.nan)
